@@ -1,0 +1,77 @@
+"""Failures: what a plan did not manage, as data (ESL §2).
+
+A failure has a cause, a keyword, and arguments. Raised in Python it is an
+exception; the runtime turns it into a call of the active recovery procedure.
+The makers below are the only place that says what a host error's arguments
+are, so that one situation always looks the same (language reference §1).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from eslang.base.symbols import Keyword, Symbol
+
+TYPE_ERROR = Keyword("TYPE-ERROR")
+DIVISION_BY_ZERO = Keyword("DIVISION-BY-ZERO")
+UNBOUND_VARIABLE = Keyword("UNBOUND-VARIABLE")
+UNDEFINED_FUNCTION = Keyword("UNDEFINED-FUNCTION")
+WRONG_NUMBER_OF_ARGUMENTS = Keyword("WRONG-NUMBER-OF-ARGUMENTS")
+INDEX_OUT_OF_RANGE = Keyword("INDEX-OUT-OF-RANGE")
+STACK_EXHAUSTED = Keyword("STACK-EXHAUSTED")
+PYTHON_ERROR = Keyword("PYTHON-ERROR")
+CONTROL_ERROR = Keyword("CONTROL-ERROR")
+ERROR = Keyword("ERROR")
+GENERAL_FAILURE = Keyword("GENERAL-FAILURE")
+
+
+class Failure(Exception):
+    """A plan did not succeed: a cause (a keyword) and the arguments that came with it."""
+
+    def __init__(self, cause: Any, *arguments: Any) -> None:
+        super().__init__(cause, *arguments)
+        self.cause: Any = Keyword(cause) if isinstance(cause, str) else cause
+        self.arguments: tuple[Any, ...] = arguments
+        self.story: Any = None  # what the runtime noted of it: where, who was asked (failures.Story)
+
+    def __str__(self) -> str:
+        shown = " ".join([str(self.cause), *(str(a) for a in self.arguments)])
+        return f"failure {shown}"
+
+
+def type_error(datum: Any, expected: str, operator: str | None = None) -> Failure:
+    """DATUM is not of the type EXPECTED; arguments (datum expected [operator])."""
+    arguments = [datum, Symbol.intern(expected.upper(), "COMMON-LISP")]
+    if operator is not None:
+        arguments.append(Symbol.intern(operator.upper(), "COMMON-LISP"))
+    return Failure(TYPE_ERROR, *arguments)
+
+
+def division_by_zero(operator: str, *operands: Any) -> Failure:
+    """A division by zero; arguments (operator operand...)."""
+    return Failure(DIVISION_BY_ZERO, Symbol.intern(operator.upper(), "COMMON-LISP"), *operands)
+
+
+def unbound_variable(name: Symbol) -> Failure:
+    """A variable without a value; arguments (name)."""
+    return Failure(UNBOUND_VARIABLE, name)
+
+
+def undefined_function(name: Any) -> Failure:
+    """A call of what is no function; arguments (name)."""
+    return Failure(UNDEFINED_FUNCTION, name)
+
+
+def index_out_of_range(sequence: Any, index: Any) -> Failure:
+    """An index that the sequence does not have; arguments (index sequence)."""
+    return Failure(INDEX_OUT_OF_RANGE, index, sequence)
+
+
+def control_error(message: str) -> Failure:
+    """A jump to what is no longer there; arguments (message)."""
+    return Failure(CONTROL_ERROR, message)
+
+
+def simple_error(message: str, *arguments: Any) -> Failure:
+    """Any other error of the host; arguments (message datum...)."""
+    return Failure(ERROR, message, *arguments)
