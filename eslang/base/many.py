@@ -34,3 +34,18 @@ def primary(result: Value) -> Value:
 def pack(values: list[Any]) -> Value:
     """A result for a many-variant to return."""
     return values[0] if len(values) == 1 else Values(values)
+
+
+def many_of(function: Any) -> Any:
+    """The variant of FUNCTION that gives all its values.
+
+    Code compiled from Lisp makes it when first wanted, through the maker that
+    its unit keeps under `%many`; anything else without one has a single value.
+    """
+    variant = getattr(function, "many", None)
+    if variant is None:
+        make = getattr(function, "__globals__", {}).get("%many")
+        if make is None:
+            return function
+        variant = function.many = make(function)
+    return variant
