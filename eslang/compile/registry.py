@@ -51,7 +51,9 @@ def _register(kind: str, signature: str, package: str, many: Any) -> Callable[[F
     return decorate
 
 
-def function(signature: str, package: str = CL, *, many: Callable[..., Any] | None = None) -> Callable[[F], F]:
+def function(
+    signature: str, package: str = CL, *, many: Callable[..., Any] | None = None
+) -> Callable[[F], F]:
     """Register a Lisp function. It takes Lisp values by position; keyword arguments come in *options.
 
     `many`, if given, is the variant that returns a `Values` (base/many.py) to whoever asks

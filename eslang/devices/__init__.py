@@ -1,0 +1,7 @@
+"""The simulated world that plans act on.
+
+In reading order: the widget of ESL §2.3. Every device registers itself through
+the public embedding interface and uses nothing else, as a user's own would.
+
+This room must not know how a plan is compiled or run.
+"""
