@@ -17,9 +17,10 @@ from eslang.base.failure import simple_error
 from eslang.base.lists import Cons
 from eslang.base.number_text import float_text, integer_text, rational_text
 from eslang.base.packages import Package
+from eslang.base.sharing import COMPOUND, contains_itself, shared_parts
 from eslang.base.symbol_text import symbol_text
-from eslang.base.symbols import Symbol, Value, lisp_name
-from eslang.base.text import Array, Character, String, Vector
+from eslang.base.symbols import Keyword, Symbol, Value, lisp_name
+from eslang.base.text import Array, Character, String
 
 _PREFIXES = {
     Symbol.intern(name, package): prefix
@@ -71,7 +72,7 @@ def princ(value: Value, settings: WriteSettings = PLAIN) -> str:
 
 def write_text(value: Value, settings: WriteSettings) -> str:
     """VALUE written as SETTINGS say."""
-    if value.__class__ not in _COMPOUND:
+    if value.__class__ not in COMPOUND:
         return atom_text(value, settings)
     if settings.circle:
         return _Printer(settings, shared_parts(value)).text_of(value)
@@ -84,7 +85,7 @@ def write_text(value: Value, settings: WriteSettings) -> str:
 def atom_text(value: Value, settings: WriteSettings) -> str:
     """The text of a VALUE that is no list, vector or array."""
     writer = _ATOMS.get(value.__class__)
-    return writer(value, settings) if writer is not None else _object_text(value, settings)
+    return writer(value, settings) if writer is not None else _object(value, settings)
 
 
 def _symbol(value: Symbol | None, settings: WriteSettings) -> str:
@@ -95,10 +96,6 @@ def _integer(value: int, settings: WriteSettings) -> str:
     if settings.radix:
         return rational_text(value, settings.base, True)
     return integer_text(value, settings.base)
-
-
-def _ratio(value: Value, settings: WriteSettings) -> str:
-    return rational_text(value, settings.base, settings.radix)
 
 
 def _float(value: float, settings: WriteSettings) -> str:
@@ -137,9 +134,9 @@ def unreadable(text: str, value: Value, settings: WriteSettings) -> str:
     return f"#<{text}>"
 
 
-def _object_text(value: Value, settings: WriteSettings) -> str:
-    if isinstance(value, Symbol):
-        return _symbol(value, settings)
+def _object(value: Value, settings: WriteSettings) -> str:
+    if value.__class__.__name__ == "Ratio":
+        return rational_text(value, settings.base, settings.radix)
     write_itself = getattr(value, "print_lisp", None)
     if write_itself is None or isinstance(value, type):
         return unreadable(foreign_text(value), value, settings)
@@ -164,6 +161,7 @@ _Writer = Callable[[Any, WriteSettings], str]
 _ATOMS: dict[type, _Writer] = {
     type(None): _symbol,
     Symbol: _symbol,
+    Keyword: _symbol,
     int: _integer,
     float: _float,
     String: _string,
@@ -173,7 +171,6 @@ _ATOMS: dict[type, _Writer] = {
     FunctionType: _function,
     BuiltinFunctionType: _function,
 }
-_COMPOUND = frozenset((Cons, Vector, Array))
 
 
 class _Circular(Exception):
@@ -209,7 +206,7 @@ class _Printer:
     def write(self, value: Value, depth: int) -> None:
         """Write VALUE, DEPTH levels down."""
         kind = value.__class__
-        if kind not in _COMPOUND and kind is not _Row:
+        if kind not in COMPOUND and kind is not _Row:
             if kind not in _ATOMS and depth:
                 self.out.append(atom_text(value, self.settings._replace(depth=depth)))
             else:
@@ -323,44 +320,3 @@ def rows(array: Array) -> Value:
             outer *= dimension
         level = [_Row(level[i * size : (i + 1) * size]) for i in range(outer)]
     return _Row(level)
-
-
-def parts_of(value: Value) -> list[Value]:
-    """The compound values that a compound VALUE is made of."""
-    if value.__class__ is Cons:
-        return [part for part in (value.car, value.cdr) if part.__class__ in _COMPOUND]
-    return [part for part in value.items if part.__class__ in _COMPOUND]
-
-
-def shared_parts(value: Value) -> dict[int, int]:
-    """The id of every part that is met more than once in VALUE, each without a label yet."""
-    met: set[int] = set()
-    shared: dict[int, int] = {}
-    waiting = [value]
-    while waiting:
-        part = waiting.pop()
-        if id(part) in met:
-            shared[id(part)] = 0
-            continue
-        met.add(id(part))
-        waiting.extend(reversed(parts_of(part)))
-    return shared
-
-
-def contains_itself(value: Value) -> bool:
-    """True if VALUE, a compound one, is among its own parts, or one of its parts is."""
-    around: set[int] = set()
-    done: set[int] = set()
-    waiting: list[tuple[Value, bool]] = [(value, False)]
-    while waiting:
-        part, leaving = waiting.pop()
-        if leaving:
-            around.discard(id(part))
-            done.add(id(part))
-        elif id(part) in around:
-            return True
-        elif id(part) not in done:
-            around.add(id(part))
-            waiting.append((part, True))
-            waiting.extend((inner, False) for inner in parts_of(part))
-    return False
