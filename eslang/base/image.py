@@ -54,6 +54,7 @@ class Image:
     def __init__(self) -> None:
         self.cells: dict[Symbol | None, Cell] = {}
         self.packages: dict[str, Package] = {}
+        self.special_forms: dict[Symbol, Value] = {}  # registry.Definition of each
         self.counters: dict[str, int] = {}  # GENSYM and its like: deterministic per interpreter
         self._define_packages()
 

@@ -1,0 +1,222 @@
+"""The analyser: one form in, one node of core language out.
+
+Here is only the walk: what an atom means, what an operator means. Each special
+form has its own function, registered in core_forms.py and its neighbours; each
+macro is called and its expansion analysed in its place.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, NoReturn
+
+from eslang.base.diagnostics import Diagnostic, EslError, Label
+from eslang.base.image import Image
+from eslang.base.lists import Cons
+from eslang.base.printer import prin1
+from eslang.base.spans import Span, Spans
+from eslang.base.symbols import Keyword, Symbol, T, Value
+from eslang.base.text import String
+from eslang.compile.core import (
+    Call,
+    Const,
+    Exit,
+    Funcall,
+    Global,
+    Inline,
+    Local,
+    Node,
+    Procedure,
+    Seq,
+    Variable,
+)
+from eslang.compile.expand import expand_macro
+from eslang.compile.inline import INLINE
+from eslang.compile.registry import Definition
+from eslang.compile.scope import LocalMacro, Scope, Special, SymbolMacro
+from eslang.compile.signatures import arity, count_arguments, usage
+
+LAMBDA = Symbol.intern("LAMBDA", "COMMON-LISP")
+SETF = Symbol.intern("SETF", "COMMON-LISP")
+
+
+class Use(NamedTuple):
+    """A global name that the program mentions: what `esl check` looks at."""
+
+    kind: str  # "call", "function" or "variable"
+    symbol: Symbol
+    arguments: list[Node] | None
+    span: Span | None
+    form: Value
+    scope: Scope
+
+
+class Analyser:
+    """Analyses the forms of one top-level form."""
+
+    def __init__(self, image: Image, spans: Spans, span: Span | None, uses: list[Use] | None = None) -> None:
+        self.image = image
+        self.spans = spans
+        self.span = span  # of the innermost form that has one
+        self.names: dict[str, int] = {}
+        self.definition: str | None = None  # the definition around the form, for `= in`
+        self.uses = uses
+
+    # --- names -----------------------------------------------------------------
+
+    def unique(self, base: str) -> str:
+        """A Python name that nothing else in this top-level form has."""
+        number = self.names.get(base, 0)
+        self.names[base] = number + 1
+        return f"{base}.{number}" if number else f"{base}."
+
+    def variable(self, symbol: Symbol, scope: Scope) -> Variable:
+        """A new lexical variable, bound in SCOPE."""
+        if isinstance(symbol, Keyword) or symbol is T or self.image.cell(symbol).constant:
+            self.fail("constant-assignment", f"`{prin1(symbol)}` is a constant and cannot be bound")
+        variable = self.unnamed_variable(symbol, scope)
+        scope.variables[symbol] = variable
+        return variable
+
+    def unnamed_variable(self, symbol: Symbol, scope: Scope) -> Variable:
+        """A new variable that no name in the program finds."""
+        name = self.unique(symbol.name.lower())
+        return Variable(symbol, name, scope.procedure, in_loop=scope.procedure.loops > 0)
+
+    def exit(self, symbol: Symbol | None, scope: Scope) -> Exit:
+        """A new block or tagbody."""
+        return Exit(symbol, self.unique(f"exit-{symbol.name.lower() if symbol else 'nil'}"), scope.procedure)
+
+    def procedure(self, name: str, scope: Scope | None) -> Procedure:
+        """A new procedure inside the one of SCOPE."""
+        return Procedure(name, scope.procedure if scope is not None else None)
+
+    # --- the walk --------------------------------------------------------------
+
+    def node(self, form: Value, scope: Scope) -> Node:
+        """The node of any form."""
+        if form.__class__ is Cons:
+            return self.list_form(form, scope)
+        if isinstance(form, Symbol):
+            return self.symbol(form, scope)
+        return Const(self.span, form)
+
+    def nodes(self, forms: Value, scope: Scope) -> list[Node]:
+        """The nodes of a list of forms; an atom at its place in the list."""
+        result = []
+        rest = forms
+        around = self.span
+        while rest.__class__ is Cons:
+            if rest.car.__class__ is not Cons:
+                self.span = self.spans.element(rest) or around
+            result.append(self.node(rest.car, scope))
+            self.span = around
+            rest = rest.cdr
+        if rest is not None:
+            self.fail("malformed-form", "a form cannot end in a dot")
+        return result
+
+    def body(self, forms: Value, scope: Scope) -> Node:
+        """The node of forms run in order."""
+        nodes = self.nodes(forms, scope)
+        if len(nodes) == 1:
+            return nodes[0]
+        return Seq(self.span, nodes) if nodes else Const(self.span, None)
+
+    def symbol(self, symbol: Symbol, scope: Scope) -> Node:
+        """The node of a variable."""
+        if isinstance(symbol, Keyword) or symbol is T:
+            return Const(self.span, symbol)
+        found = scope.find_variable(symbol)
+        if found.__class__ is Variable:
+            return Local(self.span, found)
+        if found.__class__ is SymbolMacro:
+            return self.node(found.expansion, scope)
+        if found is None:
+            cell = self.image.cell(symbol)
+            if cell.symbol_macro is not None:
+                return self.node(cell.symbol_macro[0], scope)
+            self.use("variable", symbol, None, symbol, scope)
+        return Global(self.span, symbol)
+
+    def list_form(self, form: Cons, scope: Scope) -> Node:
+        """The node of a compound form."""
+        around = self.span
+        self.span = self.spans.of(form) or around
+        try:
+            return self.compound(form, scope)
+        finally:
+            self.span = around
+
+    def compound(self, form: Cons, scope: Scope) -> Node:
+        operator = form.car
+        if isinstance(operator, Symbol):
+            found = scope.find_function(operator)
+            if found.__class__ is Variable:
+                return Funcall(self.span, Local(self.span, found), self.nodes(form.cdr, scope), known=True)
+            if found.__class__ is LocalMacro:
+                return self.expanded(form, found.expander, scope)
+            special = self.image.special_forms.get(operator)
+            if special is not None:
+                self.check_shape(special, form)
+                node: Node = special.implementation(self, form, scope)
+                return node
+            cell = self.image.cell(operator)
+            if cell.macro is not None:
+                if cell.definition is not None:
+                    self.check_shape(cell.definition, form)
+                return self.expanded(form, cell.macro, scope)
+            return self.call(operator, form, scope)
+        if operator.__class__ is Cons and operator.car is LAMBDA:
+            return Funcall(self.span, self.node(operator, scope), self.nodes(form.cdr, scope), known=True)
+        self.fail(
+            "bad-operator",
+            f"`{prin1(operator)}` cannot be called",
+            self.spans.element(form),
+            "expected the name of a function, a macro or a special form",
+            hint="quote the list if it is meant as a value" if not isinstance(operator, String) else None,
+        )
+
+    def call(self, operator: Symbol, form: Cons, scope: Scope) -> Node:
+        """The node of a call of a global function."""
+        arguments = self.nodes(form.cdr, scope)
+        if operator.package == "COMMON-LISP":
+            inline = INLINE.get(operator.name)
+            if inline is not None and inline.takes(len(arguments)):
+                return Inline(self.span, operator.name, arguments)
+        self.use("call", operator, arguments, form, scope)
+        return Call(self.span, operator, arguments)
+
+    def expanded(self, form: Cons, expander: object, scope: Scope) -> Node:
+        """The node of a macro's expansion, which stands where the macro stood."""
+        expansion = expand_macro(form, expander, scope, self)
+        if expansion.__class__ is Cons:
+            self.spans.copy_from(expansion, form)
+        return self.node(expansion, scope)
+
+    def use(self, kind: str, symbol: Symbol, arguments: list[Node] | None, form: Value, scope: Scope) -> None:
+        """Note that the program mentions a global name."""
+        if self.uses is not None:
+            self.uses.append(Use(kind, symbol, arguments, self.span, form, scope))
+
+    # --- mistakes --------------------------------------------------------------
+
+    def check_shape(self, definition: Definition, form: Cons) -> None:
+        """Fail unless FORM has as many arguments as DEFINITION takes."""
+        count = count_arguments(form)
+        if count is None:
+            self.fail("malformed-form", "a form cannot end in a dot")
+        expected = arity(definition.signature)
+        if not expected.takes(count):
+            self.fail(
+                "malformed-form",
+                f"`{definition.name.lower()}` takes {expected.phrase()}, found {count}",
+                hint=f"write `{usage(definition)}`",
+            )
+
+    def fail(
+        self, name: str, message: str, span: Span | None = None, label: str = "", hint: str | None = None
+    ) -> NoReturn:
+        """Raise the diagnostic of a mistake at SPAN, or at the form at hand."""
+        place = span or self.span
+        labels = (Label(place, label),) if place is not None else ()
+        raise EslError(Diagnostic(name, message, labels, within=self.definition, hint=hint))
