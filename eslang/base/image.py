@@ -31,6 +31,7 @@ class Cell:
         "special",
         "symbol",
         "symbol_macro",
+        "type",
         "value",
     )
     function: Function
@@ -46,6 +47,7 @@ class Cell:
         self.setf_expander: Value = None  # what DEFSETF and its like left here
         self.definition: Value = None  # signature, documentation and place, for people
         self.plist: Value = None
+        self.type: Value = None  # of a type's name: a Type (lisp/types.py), left by DEFSTRUCT and its like
 
 
 class Image:
