@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable
+from itertools import pairwise
 
 from eslang.base.character_names import character_name, find_character
 from eslang.base.failure import type_error
@@ -34,12 +35,6 @@ def has_case(char: str) -> bool:
     """True if CHAR is one of a pair of letters that differ only in case."""
     lower, upper = char.lower(), char.upper()
     return len(lower) == 1 and len(upper) == 1 and lower != upper and char in (lower, upper)
-
-
-@function("(characterp object)")
-def characterp(value: Value) -> Value:
-    """Return T if OBJECT is a character."""
-    return truth(value.__class__ is Character)
 
 
 @function("(character designator)")
@@ -197,13 +192,11 @@ def _register(sign: str, holds: Callable[[str, str], bool], claim: str) -> None:
 def _register_one(
     name: str, holds: Callable[[str, str], bool], view: Callable[[str], str], claim: str
 ) -> None:
-    def compare(*characters: Value) -> Value:
-        if not characters:
-            raise TypeError(f"{name} takes at least one character")
-        seen = [view(check_character(char, name)) for char in characters]
-        if name in ("char/=", "char-not-equal"):
+    def compare(char: Value, *others: Value) -> Value:
+        seen = [view(check_character(each, name)) for each in (char, *others)]
+        if holds is operator.ne:
             return truth(len(set(seen)) == len(seen))
-        return truth(all(holds(left, right) for left, right in zip(seen, seen[1:], strict=False)))
+        return truth(all(holds(left, right) for left, right in pairwise(seen)))
 
     compare.__doc__ = f"Return T if {claim}."
     compare.__name__ = name

@@ -14,25 +14,12 @@ from collections.abc import Callable
 from eslang.base.failure import Failure, division_by_zero, simple_error, type_error
 from eslang.base.symbols import Value, truth
 from eslang.compile.registry import function
-
-
-def is_ratio(value: Value) -> bool:
-    """True for a ratio; asks without loading Python's fractions."""
-    name: str = value.__class__.__name__
-    return name == "Ratio"
-
-
-def is_number(value: Value) -> bool:
-    """True for an integer, a float or a ratio; a Python bool is none."""
-    kind = value.__class__
-    if kind is int or kind is float:
-        return True
-    return is_ratio(value) or (isinstance(value, (int, float)) and kind is not bool)
+from eslang.lisp.predicates import is_number
 
 
 def is_integer(value: Value) -> bool:
     """True for an integer."""
-    return value.__class__ is int or (isinstance(value, int) and value.__class__ is not bool)
+    return value.__class__ is int
 
 
 def check_number(value: Value, name: str) -> Value:
@@ -53,42 +40,6 @@ def check_integer(value: Value, name: str) -> int:
 def too_large(name: str, *operands: Value) -> Failure:
     """The failure for a result, or an operand, that no double can hold."""
     return simple_error(f"{name.upper()}: too large for a float", *operands)
-
-
-@function("(numberp object)")
-def numberp(value: Value) -> Value:
-    """Return T if OBJECT is a number."""
-    return truth(is_number(value))
-
-
-@function("(realp object)")
-def realp(value: Value) -> Value:
-    """Return T if OBJECT is a real number, as all our numbers are."""
-    return truth(is_number(value))
-
-
-@function("(complexp object)")
-def complexp(value: Value) -> Value:
-    """Return NIL: there are no complex numbers."""
-    return None
-
-
-@function("(integerp object)")
-def integerp(value: Value) -> Value:
-    """Return T if OBJECT is an integer."""
-    return truth(is_integer(value))
-
-
-@function("(rationalp object)")
-def rationalp(value: Value) -> Value:
-    """Return T if OBJECT is an integer or a ratio."""
-    return truth(is_integer(value) or is_ratio(value))
-
-
-@function("(floatp object)")
-def floatp(value: Value) -> Value:
-    """Return T if OBJECT is a float."""
-    return truth(isinstance(value, float))
 
 
 @function("(+ &rest numbers)")
@@ -195,12 +146,9 @@ _register_comparison(">=", operator.ge, "no number is less than the next")
 
 
 @function("(/= number &rest more-numbers)")
-def all_different(*numbers: Value) -> Value:
+def all_different(number: Value, *others: Value) -> Value:
     """Return T if no two of the numbers are equal."""
-    if not numbers:
-        raise TypeError("/= takes at least one number")
-    for number in numbers:
-        check_number(number, "/=")
+    numbers = [check_number(each, "/=") for each in (number, *others)]
     return truth(
         not any(left == right for place, left in enumerate(numbers) for right in numbers[place + 1 :])
     )

@@ -14,7 +14,8 @@ from eslang.base.failure import Failure, division_by_zero, simple_error, type_er
 from eslang.base.running import running
 from eslang.base.symbols import Value
 from eslang.compile.registry import function, variable
-from eslang.lisp.numbers import check_number, is_integer, is_number, is_ratio, too_large
+from eslang.lisp.numbers import check_number, is_integer, too_large
+from eslang.lisp.predicates import is_number, is_rational
 
 variable("pi", math.pi, "The ratio of a circle's circumference to its diameter.", constant=True)
 for _kind in ("short", "single", "double", "long"):
@@ -62,7 +63,7 @@ def denominator(rational: Value) -> Value:
 
 
 def _check_rational(value: Value, name: str) -> Value:
-    if is_integer(value) or is_ratio(value):
+    if is_rational(value):
         return value
     raise type_error(value, "RATIONAL", name)
 
