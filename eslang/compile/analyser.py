@@ -23,6 +23,7 @@ from eslang.compile.core import (
     Funcall,
     Global,
     Inline,
+    Lambda,
     Local,
     Node,
     Procedure,
@@ -36,7 +37,8 @@ from eslang.compile.scope import LocalMacro, Scope, Special, SymbolMacro
 from eslang.compile.signatures import arity, count_arguments, usage
 
 LAMBDA = Symbol.intern("LAMBDA", "COMMON-LISP")
-SETF = Symbol.intern("SETF", "COMMON-LISP")
+DEEPEST = 10  # Python blocks in one procedure; each special form adds at most 3 of the 20 allowed
+EXIT = Symbol.uninterned("EXIT")
 
 
 class Use(NamedTuple):
@@ -84,7 +86,8 @@ class Analyser:
 
     def exit(self, symbol: Symbol | None, scope: Scope) -> Exit:
         """A new block or tagbody."""
-        return Exit(symbol, self.unique(f"exit-{symbol.name.lower() if symbol else 'nil'}"), scope.procedure)
+        token = Variable(EXIT, self.unique("exit"), scope.procedure, in_loop=scope.procedure.loops > 0)
+        return Exit(symbol, scope.procedure, token)
 
     def procedure(self, name: str, scope: Scope | None) -> Procedure:
         """A new procedure inside the one of SCOPE."""
@@ -117,7 +120,10 @@ class Analyser:
 
     def body(self, forms: Value, scope: Scope) -> Node:
         """The node of forms run in order."""
-        nodes = self.nodes(forms, scope)
+        return self.body_of(self.nodes(forms, scope))
+
+    def body_of(self, nodes: list[Node]) -> Node:
+        """One node for nodes run in order."""
         if len(nodes) == 1:
             return nodes[0]
         return Seq(self.span, nodes) if nodes else Const(self.span, None)
@@ -158,8 +164,7 @@ class Analyser:
             special = self.image.special_forms.get(operator)
             if special is not None:
                 self.check_shape(special, form)
-                node: Node = special.implementation(self, form, scope)
-                return node
+                return self.special_form(special, form, scope)
             cell = self.image.cell(operator)
             if cell.macro is not None:
                 if cell.definition is not None:
@@ -175,6 +180,16 @@ class Analyser:
             "expected the name of a function, a macro or a special form",
             hint="quote the list if it is meant as a value" if not isinstance(operator, String) else None,
         )
+
+    def special_form(self, special: Definition, form: Cons, scope: Scope) -> Node:
+        """The node of a special form; in a procedure of its own where Python nests no deeper."""
+        if scope.procedure.nesting <= DEEPEST:
+            node: Node = special.implementation(self, form, scope)
+            return node
+        procedure = self.procedure("part", scope)
+        body: Node = special.implementation(self, form, scope.inner(procedure))
+        part = Lambda(self.span, procedure, [], [], None, None, False, body)
+        return Funcall(self.span, part, [], known=True)
 
     def call(self, operator: Symbol, form: Cons, scope: Scope) -> Node:
         """The node of a call of a global function."""

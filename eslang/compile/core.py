@@ -21,6 +21,8 @@ class Procedure:
     name: str
     parent: Procedure | None
     loops: int = 0  # how many loops of this procedure enclose what is being analysed
+    nesting: int = 0  # how many Python blocks do, at most; Python allows 20
+    free: dict[Variable, None] = field(default_factory=dict)  # variables of outer procedures
 
 
 @dataclass(slots=True, eq=False)
@@ -52,8 +54,8 @@ class Exit:
     """A block or tagbody: a place that code inside it jumps to."""
 
     symbol: Symbol | None
-    name: str
     owner: Procedure
+    token: Variable  # holds what inner procedures name as their target
     jumps: int = 0  # from within its own procedure
     escapes: bool = False  # also from inner procedures
 

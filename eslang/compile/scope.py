@@ -69,7 +69,7 @@ class Scope:
             found = frame.variables.get(symbol)
             if found is not None:
                 if found.__class__ is Variable:
-                    self._mention(found)
+                    self.mention(found)
                 return found
             frame = frame.outer
         return None
@@ -81,15 +81,19 @@ class Scope:
             found = frame.functions.get(symbol)
             if found is not None:
                 if found.__class__ is Variable:
-                    self._mention(found)
+                    self.mention(found)
                 return found
             frame = frame.outer
         return None
 
-    def _mention(self, variable: Variable) -> None:
+    def mention(self, variable: Variable) -> None:
+        """Note that code here uses VARIABLE, perhaps across procedures."""
         variable.mentioned = True
-        if variable.owner is not self.procedure:
+        procedure: Procedure | None = self.procedure
+        while procedure is not None and procedure is not variable.owner:
             variable.captured = True
+            procedure.free[variable] = None
+            procedure = procedure.parent
 
     def find_block(self, symbol: Symbol | None) -> Exit | None:
         """The innermost block called SYMBOL."""

@@ -1,0 +1,216 @@
+"""Special forms: quoting, order, choice, assignment and declaration.
+
+Each function takes the analyser, a form of the shape its signature says, and
+the scope; it returns a node. Loops and jumps are exits.py, bindings are
+bindings.py, functions are functions.py.
+"""
+
+from __future__ import annotations
+
+from eslang.base.lists import Cons, items
+from eslang.base.printer import prin1
+from eslang.base.symbols import Keyword, Symbol, T, Value
+from eslang.compile.analyser import Analyser
+from eslang.compile.core import (
+    Const,
+    If,
+    Node,
+    Or,
+    Seq,
+    SetGlobal,
+    SetLocal,
+    Variable,
+)
+from eslang.compile.registry import special_form
+from eslang.compile.scope import SPECIAL, Scope, SymbolMacro
+
+DECLARE = Symbol.intern("DECLARE", "COMMON-LISP")
+SPECIAL_NAME = Symbol.intern("SPECIAL", "COMMON-LISP")
+IGNORABLE = {Symbol.intern(name, "COMMON-LISP") for name in ("IGNORE", "IGNORABLE")}
+SETF = Symbol.intern("SETF", "COMMON-LISP")
+OTHERWISE = (T, Symbol.intern("OTHERWISE", "COMMON-LISP"))
+
+
+@special_form("(quote object)")
+def quote(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Give OBJECT itself, unevaluated."""
+    return Const(analyser.span, form.cdr.car)
+
+
+@special_form("(progn &body forms)")
+def progn(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run FORMS in order; give the values of the last."""
+    return analyser.body(form.cdr, scope)
+
+
+@special_form("(if test then &optional else)")
+def if_(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run THEN if TEST is true, else ELSE."""
+    nodes = analyser.nodes(form.cdr, scope)
+    return If(analyser.span, nodes[0], nodes[1], nodes[2] if len(nodes) > 2 else Const(analyser.span, None))
+
+
+@special_form("(when test &body forms)")
+def when(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run FORMS if TEST is true."""
+    test = analyser.nodes(Cons(form.cdr.car, None), scope)[0]
+    return If(analyser.span, test, analyser.body(form.cdr.cdr, scope), Const(analyser.span, None))
+
+
+@special_form("(unless test &body forms)")
+def unless(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run FORMS if TEST is false."""
+    test = analyser.nodes(Cons(form.cdr.car, None), scope)[0]
+    return If(analyser.span, test, Const(analyser.span, None), analyser.body(form.cdr.cdr, scope))
+
+
+@special_form("(cond &rest clauses)")
+def cond(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run the forms of the first of CLAUSES, each (TEST . FORMS), whose test is true.
+
+    Returns: the value of the clause's last form; of the test, if there is none.
+    """
+    result: Node = Const(analyser.span, None)
+    parts: list[tuple[Node, Node | None]] = []
+    around = analyser.span
+    rest = form.cdr
+    while rest is not None:
+        clause = rest.car
+        analyser.span = analyser.spans.of(clause) or analyser.spans.element(rest) or around
+        if clause.__class__ is not Cons:
+            analyser.fail("malformed-form", f"`{prin1(clause)}` is no clause of `cond`", hint="write `(test form...)`")
+        test = analyser.nodes(Cons(clause.car, None), scope)[0]
+        parts.append((test, analyser.body(clause.cdr, scope) if clause.cdr is not None else None))
+        analyser.span = around
+        rest = rest.cdr
+    for test, body in reversed(parts):
+        if body is None:
+            result = Or(test.span, [test, result])
+        elif isinstance(test, Const) and test.value is not None:
+            result = body
+        else:
+            result = If(test.span, test, body, result)
+    return result
+
+
+@special_form("(and &rest forms)")
+def and_(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run FORMS in order until one is false; give the values of the last."""
+    nodes = analyser.nodes(form.cdr, scope)
+    result: Node = nodes.pop() if nodes else Const(analyser.span, T)
+    for node in reversed(nodes):
+        result = If(analyser.span, node, result, Const(analyser.span, None))
+    return result
+
+
+@special_form("(or &rest forms)")
+def or_(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run FORMS in order until one is true; give its value."""
+    nodes = analyser.nodes(form.cdr, scope)
+    if len(nodes) < 2:
+        return nodes[0] if nodes else Const(analyser.span, None)
+    return Or(analyser.span, nodes)
+
+
+@special_form("(setq &rest pairs)")
+def setq(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Give each variable of PAIRS the value of the form behind it, in order."""
+    nodes: list[Node] = []
+    rest = form.cdr
+    while rest is not None:
+        if rest.cdr is None:
+            analyser.fail("malformed-form", f"`setq` has no value for `{prin1(rest.car)}`")
+        symbol = rest.car
+        if not isinstance(symbol, Symbol) or isinstance(symbol, Keyword) or symbol is T:
+            analyser.fail(
+                "constant-assignment",
+                f"`{prin1(symbol)}` is no variable",
+                analyser.spans.element(rest),
+                hint=f"write `(setf {prin1(symbol).lower()} ...)`" if symbol.__class__ is Cons else None,
+            )
+        nodes.append(assignment(analyser, symbol, rest.cdr, scope))
+        rest = rest.cdr.cdr
+    if len(nodes) == 1:
+        return nodes[0]
+    return Seq(analyser.span, nodes) if nodes else Const(analyser.span, None)
+
+
+def assignment(analyser: Analyser, symbol: Symbol, holder: Cons, scope: Scope) -> Node:
+    """The node that gives SYMBOL the value of the form that HOLDER's car is."""
+    found = scope.find_variable(symbol)
+    expansion = None
+    if found.__class__ is SymbolMacro:
+        expansion = [found.expansion]  # type: ignore[union-attr]
+    elif found is None:
+        expansion = analyser.image.cell(symbol).symbol_macro
+    if expansion is not None:
+        return analyser.node(Cons(SETF, Cons(expansion[0], Cons(holder.car, None))), scope)
+    value = analyser.nodes(Cons(holder.car, None), scope)[0]
+    if isinstance(found, Variable):
+        found.assigned = True
+        return SetLocal(analyser.span, found, value)
+    if analyser.image.cell(symbol).constant:
+        analyser.fail("constant-assignment", f"`{prin1(symbol)}` is a constant and cannot be set")
+    if found is None:
+        analyser.use("assignment", symbol, None, symbol, scope)
+    return SetGlobal(analyser.span, symbol, value)
+
+
+# --- declarations ------------------------------------------------------------------
+
+
+def split_body(forms: Value, *, documented: bool = False) -> tuple[list[Cons], str | None, Value]:
+    """The declarations at the head of a body, its docstring, and the forms that remain."""
+    from eslang.base.text import String
+
+    declarations: list[Cons] = []
+    documentation = None
+    while forms.__class__ is Cons:
+        head = forms.car
+        if head.__class__ is Cons and head.car is DECLARE:
+            declarations += [d for d in items(head.cdr) if d.__class__ is Cons]
+        elif documented and documentation is None and head.__class__ is String and forms.cdr is not None:
+            documentation = head.text
+        else:
+            break
+        forms = forms.cdr
+    return declarations, documentation, forms
+
+
+def declared(declarations: list[Cons], names: set[Symbol] | Symbol) -> set[Symbol]:
+    """The variables that DECLARATIONS say one of NAMES of."""
+    wanted = {names} if isinstance(names, Symbol) else names
+    return {symbol for declaration in declarations if declaration.car in wanted for symbol in items(declaration.cdr)}
+
+
+def declare_specials(analyser: Analyser, declarations: list[Cons], scope: Scope) -> None:
+    """Make what is declared special, and not bound here, special in SCOPE."""
+    for symbol in declared(declarations, SPECIAL_NAME):
+        scope.variables[symbol] = SPECIAL
+
+
+@special_form("(locally &body forms)")
+def locally(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run FORMS under the declarations at their head."""
+    declarations, _, forms = split_body(form.cdr)
+    inner = scope.inner()
+    declare_specials(analyser, declarations, inner)
+    return analyser.body(forms, inner)
+
+
+@special_form("(the type form)")
+def the(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Give the values of FORM; TYPE is taken on trust."""
+    return analyser.nodes(form.cdr.cdr, scope)[0]
+
+
+@special_form("(declare &rest declarations)")
+def declare(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Say something of the variables of the body that this stands at the head of."""
+    analyser.fail("misplaced-declare", "`declare` stands at the head of a body, and nowhere else")
+
+
+@special_form("(eval-when situations &body forms)")
+def eval_when(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run FORMS; plans are compiled as they are loaded, so all SITUATIONS are one."""
+    return analyser.body(form.cdr.cdr, scope)

@@ -1,0 +1,75 @@
+"""Macro expansion: a macro is a function from a form and its scope to a form."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from eslang.base.diagnostics import EslError
+from eslang.base.failure import Failure
+from eslang.base.image import Image
+from eslang.base.lists import Cons
+from eslang.base.printer import prin1
+from eslang.base.symbols import Symbol, Value
+from eslang.compile.core import Variable
+from eslang.compile.scope import LocalMacro, Scope, SymbolMacro
+
+if TYPE_CHECKING:
+    from eslang.compile.analyser import Analyser
+
+
+def expand_macro(form: Cons, expander: Any, scope: Scope, analyser: Analyser) -> Value:
+    """The expansion of FORM; what goes wrong in the expander is an error of the program."""
+    try:
+        return expander(form, scope)
+    except EslError:
+        raise
+    except Failure as failure:
+        analyser.fail(
+            "macro-failed",
+            f"expanding `{prin1(form.car).lower()}` failed: {failure_text(failure)}",
+        )
+    except RecursionError:
+        analyser.fail("nested-too-deep", f"expanding `{prin1(form.car).lower()}` does not come to an end")
+
+
+def failure_text(failure: Failure) -> str:
+    """`:CAUSE argument...`, with a message as it reads."""
+    shown = [a if isinstance(a, str) else prin1(a) for a in failure.arguments]
+    return " ".join([prin1(failure.cause), *shown])
+
+
+def macroexpand_1(form: Value, image: Image, scope: Scope | None = None) -> tuple[Value, bool]:
+    """One step of expansion, and whether there was one."""
+    if isinstance(form, Symbol):
+        return _expand_symbol(form, image, scope)
+    if form.__class__ is not Cons or not isinstance(form.car, Symbol):
+        return form, False
+    found = scope.find_function(form.car) if scope is not None else None
+    if found.__class__ is LocalMacro:
+        return found.expander(form, scope), True  # type: ignore[union-attr]
+    if found is None:
+        expander = image.cell(form.car).macro
+        if expander is not None and form.car not in image.special_forms:
+            return expander(form, scope), True
+    return form, False
+
+
+def _expand_symbol(symbol: Symbol, image: Image, scope: Scope | None) -> tuple[Value, bool]:
+    found = scope.find_variable(symbol) if scope is not None else None
+    if found.__class__ is SymbolMacro:
+        return found.expansion, True  # type: ignore[union-attr]
+    if found is None or found.__class__ is not Variable:
+        expansion = image.cell(symbol).symbol_macro
+        if expansion is not None and found is None:
+            return expansion[0], True
+    return symbol, False
+
+
+def macroexpand(form: Value, image: Image, scope: Scope | None = None) -> tuple[Value, bool]:
+    """Expand FORM until it is no macro form, and whether there was a step at all."""
+    expanded = False
+    while True:
+        form, again = macroexpand_1(form, image, scope)
+        if not again:
+            return form, expanded
+        expanded = True
