@@ -105,3 +105,12 @@ def is_number_token(name: str) -> bool:
 def _is_decimal(text: str) -> bool:
     whole, _, fraction = text.partition(".")
     return (whole.isdigit() or not whole) and (fraction.isdigit() or not fraction)
+
+
+def digits_value(digits: str, base: int = 10) -> int:
+    """The integer that DIGITS, all valid in BASE, stand for; there may be any number of them."""
+    if len(digits) <= _CHUNK:
+        return int(digits, base)
+    middle = len(digits) // 2
+    below = len(digits) - middle
+    return digits_value(digits[:middle], base) * base**below + digits_value(digits[middle:], base)
