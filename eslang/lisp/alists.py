@@ -1,0 +1,175 @@
+"""Association lists and property lists."""
+
+from __future__ import annotations
+
+from eslang.base.failure import simple_error, type_error
+from eslang.base.lists import Cons, from_items, items
+from eslang.base.many import pack
+from eslang.base.symbols import Datum, T, Value
+from eslang.compile.registry import function
+from eslang.lisp.arguments import take_keys
+from eslang.lisp.matching import Judge, judge_if, judge_item
+
+_TESTS = ("TEST", "TEST-NOT", "KEY")
+_KEY = ("KEY",)
+
+
+def _entry(alist: Value, by_car: bool, judge: Judge, sign: bool) -> Value:
+    """The first entry of ALIST whose car (or cdr) the judge accepts."""
+    rest = alist
+    while rest is not None:
+        if rest.__class__ is not Cons:
+            raise type_error(alist, "LIST")
+        entry = rest.car
+        if entry is not None:
+            if entry.__class__ is not Cons:
+                raise type_error(entry, "LIST")
+            if (judge(entry.car if by_car else entry.cdr) is not None) is sign:
+                return entry
+        rest = rest.cdr
+    return None
+
+
+def _same_entry(item: Datum | None, alist: Value) -> Value:
+    """The first entry of ALIST whose car is ITEM itself."""
+    rest = alist
+    try:
+        while rest is not None:
+            entry = rest.car
+            if entry is not None and entry.car is item:
+                return entry
+            rest = rest.cdr
+    except AttributeError:
+        raise type_error(rest.car if rest.__class__ is Cons else alist, "LIST", "ASSOC") from None
+    return None
+
+
+@function("(assoc item alist &key test test-not key)")
+def assoc(item: Value, alist: Value, *options: Value) -> Value:
+    """Return the first entry of ALIST whose car matches ITEM, or NIL."""
+    if not options and (item is None or isinstance(item, Datum)):
+        return _same_entry(item, alist)
+    return _entry(alist, True, *judge_item(item, *take_keys(options, _TESTS)))
+
+
+@function("(assoc-if predicate alist &key key)")
+def assoc_if(predicate: Value, alist: Value, *options: Value) -> Value:
+    """Return the first entry of ALIST whose car satisfies PREDICATE, or NIL."""
+    return _entry(alist, True, judge_if(predicate, *take_keys(options, _KEY)), True)
+
+
+@function("(assoc-if-not predicate alist &key key)")
+def assoc_if_not(predicate: Value, alist: Value, *options: Value) -> Value:
+    """Return the first entry of ALIST whose car fails PREDICATE, or NIL."""
+    return _entry(alist, True, judge_if(predicate, *take_keys(options, _KEY)), False)
+
+
+@function("(rassoc item alist &key test test-not key)")
+def rassoc(item: Value, alist: Value, *options: Value) -> Value:
+    """Return the first entry of ALIST whose cdr matches ITEM, or NIL."""
+    return _entry(alist, False, *judge_item(item, *take_keys(options, _TESTS)))
+
+
+@function("(rassoc-if predicate alist &key key)")
+def rassoc_if(predicate: Value, alist: Value, *options: Value) -> Value:
+    """Return the first entry of ALIST whose cdr satisfies PREDICATE, or NIL."""
+    return _entry(alist, False, judge_if(predicate, *take_keys(options, _KEY)), True)
+
+
+@function("(rassoc-if-not predicate alist &key key)")
+def rassoc_if_not(predicate: Value, alist: Value, *options: Value) -> Value:
+    """Return the first entry of ALIST whose cdr fails PREDICATE, or NIL."""
+    return _entry(alist, False, judge_if(predicate, *take_keys(options, _KEY)), False)
+
+
+@function("(acons key datum alist)")
+def acons(key: Value, datum: Value, alist: Value) -> Value:
+    """Return ALIST with the entry (KEY . DATUM) in front."""
+    return Cons(Cons(key, datum), alist)
+
+
+@function("(pairlis keys data &optional alist)")
+def pairlis(keys: Value, values: Value, alist: Value = None) -> Value:
+    """Return ALIST with an entry in front for each of KEYS and DATA."""
+    left, right = items(keys), items(values)
+    if len(left) != len(right):
+        raise simple_error("lists of different lengths", keys, values)
+    return from_items([Cons(key, value) for key, value in zip(left, right, strict=True)], alist)
+
+
+@function("(copy-alist alist)")
+def copy_alist(alist: Value) -> Value:
+    """Return a copy of ALIST with entries of its own."""
+    return from_items(
+        [Cons(entry.car, entry.cdr) if entry.__class__ is Cons else entry for entry in items(alist)]
+    )
+
+
+def _find_property(plist: Value, indicators: list[Value]) -> Value:
+    """The tail of PLIST that begins with one of INDICATORS, or NIL."""
+    rest = plist
+    while rest is not None:
+        if rest.__class__ is not Cons or rest.cdr.__class__ is not Cons:
+            raise _malformed(plist)
+        key = rest.car
+        for indicator in indicators:
+            if key is indicator or (key.__class__ is int and indicator.__class__ is int and key == indicator):
+                return rest
+        rest = rest.cdr.cdr
+    return None
+
+
+def _malformed(plist: Value) -> Exception:
+    if plist.__class__ is not Cons:
+        return type_error(plist, "LIST")
+    return simple_error("malformed property list", plist)
+
+
+@function("(getf plist indicator &optional default)")
+def getf(plist: Value, indicator: Value, default: Value = None) -> Value:
+    """Return what PLIST holds under INDICATOR, or DEFAULT."""
+    tail = _find_property(plist, [indicator])
+    return default if tail is None else tail.cdr.car
+
+
+def get_properties_values(plist: Value, indicators: Value) -> Value:
+    """The values of GET-PROPERTIES: indicator, value and tail."""
+    tail = _find_property(plist, items(indicators))
+    return pack([None, None, None] if tail is None else [tail.car, tail.cdr.car, tail])
+
+
+@function("(get-properties plist indicators)", many=get_properties_values)
+def get_properties(plist: Value, indicators: Value) -> Value:
+    """Return the first of INDICATORS in PLIST, its value, and the tail there."""
+    return get_properties_values(plist, indicators)[0]
+
+
+@function("(%putf plist indicator value)")
+def putf(plist: Value, indicator: Value, value: Value) -> Value:
+    """Return PLIST, changed so that it holds VALUE under INDICATOR."""
+    tail = _find_property(plist, [indicator])
+    if tail is None:
+        return Cons(indicator, Cons(value, plist))
+    tail.cdr.car = value
+    return plist
+
+
+def remf_values(plist: Value, indicator: Value) -> Value:
+    """PLIST without the property INDICATOR, and whether it had it."""
+    tail = _find_property(plist, [indicator])
+    if tail is None:
+        return pack([plist, None])
+    after = tail.cdr.cdr
+    if tail is plist:
+        return pack([after, T])
+    rest = plist
+    while rest.cdr.cdr is not tail:
+        rest = rest.cdr.cdr
+    rest.cdr.cdr = after
+    return pack([plist, T])
+
+
+@function("(%remf plist indicator)", many=remf_values)
+def remf(plist: Value, indicator: Value) -> Value:
+    """Return PLIST, changed to lack the property INDICATOR; second, whether it had it."""
+    return remf_values(plist, indicator)[0]
