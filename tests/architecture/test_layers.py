@@ -16,10 +16,10 @@ FLOORS = {
     "constructs.scs": 2,
     "devices": 2,
     "interpreter": 3,  # and whatever else stands directly in eslang/
-    "tools": 4,
-    "door": 5,  # eslang/__init__.py and __main__.py: they open onto everything
+    "eslang": 4,  # the front door, for those who embed us and for the tools
+    "tools": 5,
+    "__main__": 6,
 }
-DOORS = ("eslang", "eslang.__main__")
 
 # A deferred import that closes a circle, and why it may.
 CIRCLES = {
@@ -32,9 +32,7 @@ NAMES = {module.name for module in MODULES}
 
 def room_of(name: str) -> str:
     """The room in which the module NAME stands."""
-    if name in DOORS:
-        return "door"
-    parts = name.split(".")[1:]
+    parts = name.split(".")[1:] or ["eslang"]
     if parts[0] == "constructs":
         return ".".join(parts[:2]) if parts[1:] and parts[1] in ("esl", "scs") else "constructs"
     return parts[0] if parts[0] in FLOORS else "interpreter"

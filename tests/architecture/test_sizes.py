@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 import pytest
+
 from architecture.sources import MODULES, ROOT, TEST_MODULES
 
 FILE_LIMIT = 400
