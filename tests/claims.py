@@ -17,7 +17,7 @@ FIRST_LINES = re.compile(r"^;+ claim ([A-Z]+-[\w.-]+)(?:: (.*))?$", re.M)
 INTRODUCTION = """\
 # Conformance: the papers' sentences and the tests that show them
 
-This page is made from `tests/conformance/claims.toml` and the files that stand beside it, and the transcripts.
+This page is made from `tests/conformance/claims.toml`, the files beside it, and the transcripts.
 ESL is [Gat 1996]; ARM is [Gat and Pell 1998].
 A sentence is quoted as printed, hyphenation undone.
 Where the second paper prints a sentence of the first again, its row points there.
