@@ -1,0 +1,115 @@
+"""The command `esl`: find the command meant, run it, exit with its code.
+
+Python's own words never reach a person from here, except for a bug of ours.
+Each command lives in a file of its own and is imported when it is asked for.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from eslang.tools.options import COMMANDS, Chosen, Usage, choose, help_text, overview
+
+USAGE, BUG, INTERRUPTED = 2, 70, 130
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line ARGUMENTS (those of the process unless given); the exit code."""
+    prepare_streams()
+    try:
+        code = dispatch(sys.argv[1:] if arguments is None else arguments)
+        sys.stdout.flush()
+        return code
+    except Usage as mistake:
+        sys.stderr.write(f"esl: {mistake}\nTry `esl --help`.\n")
+        return USAGE
+    except BrokenPipeError:
+        return closed_pipe()
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except Exception as bug:
+        return bug_found(bug)
+
+
+def dispatch(arguments: list[str]) -> int:
+    """Find the command that ARGUMENTS mean, and run it."""
+    first = arguments[0] if arguments else "repl"
+    if first in ("-h", "--help", "help"):
+        return print_help(arguments[1:])
+    if first in ("-V", "--version"):
+        from eslang import __version__
+
+        print(f"eslang {__version__}")
+        return 0
+    if first == "-e":
+        arguments = ["run", *arguments]
+    elif first.startswith("--"):
+        arguments = ["repl", *arguments]
+    name, rest = (arguments[0], arguments[1:]) if arguments else ("repl", [])
+    command = COMMANDS.get(name)
+    if command is None:
+        raise Usage(unknown_command(name))
+    if "-h" in rest or "--help" in rest:
+        return print_help([name])
+    return perform(choose(command, rest))
+
+
+def perform(chosen: Chosen) -> int:
+    """Run the command CHOSEN, which is imported only now."""
+    name = chosen.command.name
+    if name == "run":
+        from eslang.tools.run import run as command
+    elif name == "repl":
+        from eslang.tools.repl import repl as command
+    elif name == "test":
+        from eslang.tools.testing import test as command
+    elif name == "check":
+        from eslang.tools.checking import check as command
+    elif name == "doc":
+        from eslang.tools.docs import doc as command
+    else:
+        from eslang.tools.explaining import explain as command
+    return command(chosen)
+
+
+def print_help(names: list[str]) -> int:
+    """Print the help of the commands NAMES, or of `esl` itself."""
+    for name in names:
+        if name not in COMMANDS:
+            raise Usage(unknown_command(name))
+    texts = [help_text(COMMANDS[name]) for name in names] or [overview()]
+    sys.stdout.write("\n".join(texts))
+    return 0
+
+
+def unknown_command(name: str) -> str:
+    """What to say to a word that is no command."""
+    if name.endswith(".esl") or os.path.exists(name):
+        return f"`{name}` is no command; to run it: esl run {name}"
+    from eslang.base.suggest import nearest
+
+    near = nearest(name, COMMANDS)
+    return f"there is no command `{name}`" + (f"; the nearest is `{near}`" if near else "")
+
+
+def prepare_streams() -> None:
+    """Let output appear line by line, and no character be too strange to be written."""
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)
+        if reconfigure is not None:
+            reconfigure(encoding="utf-8", errors="backslashreplace", line_buffering=True)
+
+
+def closed_pipe() -> int:
+    """Whoever read our output has left: end quietly, and let nothing more be written."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    return 0
+
+
+def bug_found(bug: Exception) -> int:
+    """Say that we are wrong, and what to send us."""
+    from eslang.tools.report import bug_report
+
+    sys.stderr.write(bug_report(bug))
+    return BUG

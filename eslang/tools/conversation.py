@@ -1,0 +1,176 @@
+"""A conversation with one interpreter, as at the papers' prompt.
+
+A text comes in; each form of it is answered by its values, one a line, by the
+papers' lines for a failure, or by a diagnostic. The prompt (repl.py) and the
+replay of transcripts (transcript.py) are both this conversation, so that what
+a transcript shows is what a person sees. Nothing here knows a terminal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from eslang.base.control import Stop
+from eslang.base.diagnostics import EslError, IncompleteInput
+from eslang.base.failure import Failure
+from eslang.base.lists import from_items
+from eslang.base.printer import prin1
+from eslang.base.render import render
+from eslang.base.spans import Source, Span
+from eslang.base.symbols import Keyword, Symbol, Value
+from eslang.tools.report import bug_report
+
+PROMPT = "? "
+INTERRUPTED = 130
+
+
+class Writes(Protocol):
+    """Something that text can be written to."""
+
+    def write(self, text: str, /) -> object:
+        """Write TEXT."""
+
+
+class Leave(Exception):
+    """The conversation is over; the code is the one to exit with."""
+
+    def __init__(self, code: int) -> None:
+        super().__init__(code)
+        self.code = code
+
+
+class Conversation:
+    """One interpreter, what it last answered, and where complaints go."""
+
+    def __init__(self, interp: Any, errors: Writes | None = None, *, echo: bool = False) -> None:
+        self.interp = interp
+        self.output = interp.output
+        self.errors = errors  # None: among the answers, as in a transcript
+        self.echo = echo  # print the forms: the input is not seen otherwise
+        self.prompted = False  # the prompt stands there, waiting
+        self.failure: Failure | None = None  # the last one that nothing answered
+        self.mistakes = 0  # forms that were no right program
+        self.said: dict[Keyword, Callable[[Conversation], None]] = {}  # :why and its like
+        self.history = History(interp.image)
+
+    def prompt(self) -> None:
+        """Print the prompt, unless it stands there already."""
+        if not self.prompted:
+            self.output.fresh_line()
+            self.output.write(PROMPT)
+            self.prompted = True
+
+    def hear(self, text: str, *, last: bool = False) -> str:
+        """Answer the forms of TEXT; return the beginning of a form that TEXT leaves unfinished.
+
+        With LAST, nothing more will come: an unfinished form is a mistake.
+        """
+        source, done = Source("<prompt>", text), 0
+        readings = self.interp.readings(source)
+        while True:
+            try:
+                reading = next(readings, None)
+            except EslError as error:
+                if isinstance(error, IncompleteInput) and not last:
+                    return text[done:]
+                if self.echo:
+                    self.show(text[done:].strip())
+                self.complain(error)
+                return ""
+            if reading is None:
+                return ""
+            start, done = extent(text, reading.span)
+            if self.echo:
+                self.show(text[start:done])
+            self.answer(reading)
+
+    def show(self, form: str) -> None:
+        """Print FORM behind the prompt, as if it had been typed there."""
+        self.prompt()
+        self.output.write(form + "\n")
+        self.prompted = False
+
+    def answer(self, reading: Any) -> None:
+        """Evaluate one form and print what comes of it."""
+        form = reading.form
+        if isinstance(form, Keyword) and form in self.said:
+            self.said[form](self)
+            return
+        self.history.begin(form)
+        try:
+            values = self.interp.evaluate(reading)
+        except Failure as failure:
+            self.failure = failure  # the narrator has spoken
+        except EslError as error:
+            self.complain(error)
+        except Stop as stop:
+            self.stopped(stop)
+        except Exception as bug:
+            self.write_error(bug_report(bug))
+        else:
+            self.history.end(form, values)
+            for value in values:
+                self.print_value(value)
+        self.output.fresh_line()
+
+    def print_value(self, value: Value) -> None:
+        """Print VALUE on a line of its own."""
+        self.output.fresh_line()
+        self.output.write(prin1(value) + "\n")
+
+    def stopped(self, stop: Stop) -> None:
+        """The evaluation was ended from outside, or by (quit)."""
+        if stop.code != INTERRUPTED:
+            raise Leave(stop.code)
+        self.output.fresh_line()
+        self.output.write("Aborted\n")
+
+    def complain(self, error: EslError) -> None:
+        """Say what is wrong with a program."""
+        self.mistakes += 1
+        self.write_error(render(error.diagnostic))
+
+    def write_error(self, text: str) -> None:
+        """Write a diagnostic, on a line of its own."""
+        self.output.fresh_line()
+        text = text.rstrip("\n") + "\n"
+        if self.errors is None:
+            self.output.write(text)
+        else:
+            self.output.flush()
+            self.errors.write(text)
+
+
+class History:
+    """The variables of the prompt: - + ++ +++ * ** *** / // ///, as Common Lisp has them."""
+
+    def __init__(self, image: Any) -> None:
+        names = ("-", "+", "++", "+++", "*", "**", "***", "/", "//", "///")
+        self.cells = {name: image.cell(Symbol.intern(name, "COMMON-LISP")) for name in names}
+        for name, cell in self.cells.items():
+            image.packages["COMMON-LISP"].export(name)
+            cell.special = True
+            cell.value = None
+
+    def begin(self, form: Value) -> None:
+        """FORM is about to be evaluated."""
+        self.cells["-"].value = form
+
+    def end(self, form: Value, values: list[Value]) -> None:
+        """FORM gave VALUES."""
+        self._push("+", form)
+        self._push("*", values[0] if values else None)
+        self._push("/", from_items(values))
+
+    def _push(self, name: str, value: Value) -> None:
+        first, second, third = (self.cells[name * count] for count in (1, 2, 3))
+        third.value, second.value, first.value = second.value, first.value, value
+
+
+def extent(text: str, span: Span) -> tuple[int, int]:
+    """Where in TEXT the form at SPAN begins and ends."""
+    starts = [0]
+    for line in text.split("\n"):
+        starts.append(starts[-1] + len(line) + 1)
+    return starts[span.line - 1] + span.column - 1, starts[span.end_line - 1] + span.end_column - 1

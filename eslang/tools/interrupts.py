@@ -1,0 +1,60 @@
+"""Ctrl-C and the time limit: requests to an interpreter to end what it runs.
+
+A request only sets the interpreter's flag; it ends the evaluation with its
+cleanups. Whoever asks a second time, and a time limit that the cleanups
+outlast, ends the whole command at once.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from types import FrameType
+from typing import Any
+
+INTERRUPTED, TIME_LIMIT = 130, 124
+GRACE = 2.0  # seconds that cleanups have after the time limit
+
+
+class Interrupts:
+    """While entered, Ctrl-C and the time limit ask the interpreter to stop; `code` is who asked."""
+
+    def __init__(self, interp: Any, limit: float | None = None) -> None:
+        self.interp = interp
+        self.limit = limit
+        self.code: int | None = None
+        self._before: Any = None
+
+    def __enter__(self) -> Interrupts:
+        self._before = signal.signal(signal.SIGINT, self._on_interrupt)
+        if self.limit is not None:
+            signal.signal(signal.SIGALRM, self._on_limit)
+            signal.setitimer(signal.ITIMER_REAL, self.limit, GRACE)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self.limit is not None:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGINT, self._before)
+
+    def _on_interrupt(self, number: int, frame: FrameType | None) -> None:
+        self._ask("interrupted", INTERRUPTED)
+
+    def _on_limit(self, number: int, frame: FrameType | None) -> None:
+        self._ask(f"the time limit of {self.limit:g} s is over", TIME_LIMIT)
+
+    def _ask(self, reason: str, code: int) -> None:
+        if self.code is not None:
+            leave_at_once(self.code)
+        self.code = code
+        self.interp.interrupt(reason, code)
+
+
+def leave_at_once(code: int) -> None:
+    """End the command without any cleanup, because it was asked twice."""
+    try:
+        sys.stdout.flush()
+    except Exception:
+        code = code  # what could not be written is lost
+    os._exit(code)

@@ -1,0 +1,98 @@
+"""An interpreter as the options of a command want it.
+
+Shared by `esl run` and `esl repl`. What an option may say is checked here.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from eslang.tools.options import Chosen, Usage
+
+LATER = ("scenario", "facts")  # options whose rooms are still to be built
+Listener = Callable[[Any], None]
+
+
+@contextmanager
+def opened(chosen: Chosen, listener: Listener | None) -> Iterator[Any]:
+    """An interpreter with LISTENER, as CHOSEN wants it; closed at the end."""
+    from eslang.interpreter import Interpreter
+
+    for key in LATER:
+        if chosen.has(key):
+            raise Usage(f"`--{key}` is not available yet")
+    clock = chosen.value("clock") or "real"
+    if clock not in ("real", "virtual"):
+        raise Usage(f"`--clock` is `real` or `virtual`, not `{clock}`")
+    seed = seed_of(chosen)
+    listeners = [listener] if listener is not None else []
+    stream = trace_stream(chosen)
+    if stream is not None:
+        from eslang.tools.tracing import Tracer
+
+        listeners.append(Tracer(stream))
+    try:
+        with Interpreter(seed=seed, clock=clock, listeners=listeners) as interp:
+            yield interp
+    finally:
+        if stream is not None:
+            stream.close()
+
+
+def seed_of(chosen: Chosen) -> int:
+    """The seed that CHOSEN asks for; a random one is drawn and told."""
+    word = chosen.value("seed")
+    if word is None:
+        return 0
+    if word == "random":
+        seed = int.from_bytes(os.urandom(4), "big")
+        sys.stderr.write(f"esl: seed {seed}\n")
+        return seed
+    if not word.lstrip("-").isdecimal():
+        raise Usage(f"`--seed` is a whole number or `random`, not `{word}`")
+    return int(word)
+
+
+def limit_of(chosen: Chosen) -> float | None:
+    """The time limit that CHOSEN asks for, in seconds."""
+    word = chosen.value("time-limit")
+    if word is None:
+        return None
+    try:
+        seconds = float(word)
+    except ValueError:
+        seconds = -1.0
+    if not 0 < seconds < 1e9:
+        raise Usage(f"`--time-limit` is a number of seconds above 0, not `{word}`")
+    return seconds
+
+
+def trace_stream(chosen: Chosen) -> Any:
+    """The file that the events are to be written to, opened."""
+    path = chosen.value("trace")
+    if path is None:
+        return None
+    try:
+        return open(path, "w", encoding="utf-8")
+    except OSError as trouble:
+        raise Usage(f"cannot write `{path}`: {reason(trouble)}") from None
+
+
+def readable(path: str) -> str:
+    """PATH, if it is a file that can be read; Usage if not."""
+    if path != "-":
+        try:
+            with open(path, "rb") as stream:
+                stream.read(1)
+        except OSError as trouble:
+            raise Usage(f"cannot read `{path}`: {reason(trouble)}") from None
+    return path
+
+
+def reason(trouble: OSError) -> str:
+    """Why the operating system refused, in its own words."""
+    return (trouble.strerror or str(trouble)).lower()

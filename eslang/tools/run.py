@@ -1,0 +1,100 @@
+"""`esl run`: load plans, call MAIN, and say by the exit code how it went.
+
+Imports as little as it can: the time from the command to the first form of a
+plan is a promise.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from eslang.base.control import Stop
+from eslang.base.diagnostics import EslError
+from eslang.base.failure import Failure
+from eslang.tools.interrupts import Interrupts
+from eslang.tools.narrator import narrate
+from eslang.tools.opening import limit_of, opened, readable
+from eslang.tools.options import Chosen, Usage
+
+FAILED, WRONG = 1, 65
+
+
+def run(chosen: Chosen) -> int:
+    """Do what `esl run` was asked for; the exit code."""
+    if not chosen.words and not chosen.has("e"):
+        raise Usage("`esl run` needs a file, or -e FORM")
+    for path in chosen.words:
+        readable(path)
+    limit = limit_of(chosen)
+    with opened(chosen, None if chosen.has("quiet") else narrate) as interp:
+        with Interrupts(interp, limit) as interrupts:
+            code = outcome(interp, lambda: plan(interp, chosen))
+        return code if interrupts.code is None else interrupts.code
+
+
+def plan(interp: Any, chosen: Chosen) -> None:
+    """Load the files, then evaluate the forms of -e, or else call MAIN."""
+    before = main_function(interp)
+    for path in chosen.words:
+        load(interp, path)
+    for text in chosen.all("e"):
+        evaluate_text(interp, text)
+    if not chosen.has("e"):
+        main = main_function(interp)
+        if main is not None and main is not before:
+            interp.call("main")
+
+
+def load(interp: Any, path: str) -> None:
+    """Load the file PATH; `-` is standard input."""
+    if path != "-":
+        interp.load(path)
+        return
+    from eslang.base.spans import Source
+
+    for reading in interp.readings(Source("<stdin>", sys.stdin.read())):
+        interp.evaluate(reading)
+
+
+def evaluate_text(interp: Any, text: str) -> None:
+    """Evaluate the forms of TEXT and print their values, one a line."""
+    from eslang.base.printer import prin1
+    from eslang.base.spans import Source
+
+    for reading in interp.readings(Source("-e", text)):
+        for value in interp.evaluate(reading):
+            interp.output.fresh_line()
+            interp.output.write(prin1(value) + "\n")
+
+
+def main_function(interp: Any) -> Any:
+    """The function MAIN of the current package; None if there is none."""
+    symbol, found = interp.image.package.find("MAIN")
+    return getattr(interp.image.cell(symbol), "function", None) if found else None
+
+
+def outcome(interp: Any, work: Callable[[], None]) -> int:
+    """Do WORK; the exit code that tells how it went, after a report on standard error."""
+    try:
+        work()
+        code = 0
+    except Failure as failure:
+        from eslang.tools.report import failure_report
+
+        code = complain(interp, failure_report(failure), FAILED)
+    except EslError as error:
+        code = complain(interp, str(error), WRONG)
+    except Stop as stop:
+        code = complain(interp, f"esl: {stop.reason}", stop.code) if stop.code else 0
+    interp.output.flush()
+    return code
+
+
+def complain(interp: Any, text: str, code: int) -> int:
+    """Write TEXT to standard error, behind all that was printed; CODE."""
+    interp.output.flush()
+    sys.stdout.flush()
+    sys.stderr.write(text.rstrip("\n") + "\n")
+    return code
