@@ -112,5 +112,5 @@ def digits_value(digits: str, base: int = 10) -> int:
     if len(digits) <= _CHUNK:
         return int(digits, base)
     middle = len(digits) // 2
-    below = len(digits) - middle
-    return digits_value(digits[:middle], base) * base**below + digits_value(digits[middle:], base)
+    scale: int = base ** (len(digits) - middle)
+    return digits_value(digits[:middle], base) * scale + digits_value(digits[middle:], base)
