@@ -28,7 +28,7 @@ def _collect(f: Value, first: Value, more: tuple[Value, ...], by_element: bool) 
 
 
 def _collect_many(call: Any, rests: list[Value], by_element: bool) -> list[Value]:
-    results = []
+    results: list[Value] = []
     while True:
         for rest in rests:
             if rest is None:
