@@ -10,6 +10,7 @@ import pytest
 
 from architecture.sources import MODULES, ROOT, text_files
 from eslang.compile.registry import CL, DEFINITIONS, Definition
+from eslang.tools.docs import PAGES, Page, page_text
 
 for module in MODULES:
     if module.name not in ("eslang.__main__",):
@@ -18,6 +19,7 @@ for module in MODULES:
 NAMES = sorted(DEFINITIONS, key=lambda definition: (definition.package, definition.name, definition.kind))
 PARTS = ("Returns:", "Fails:", "Waits:", "Example:", "Source:")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+TEST_PATH = re.compile(r"`(tests/[\w./-]+)`")
 DECISION = re.compile(r"\b[Dd]ecision (\d+)")
 
 
@@ -111,6 +113,26 @@ def test_every_link_in_the_docs_leads_somewhere() -> None:
     assert wrong == []
 
 
+def test_every_test_that_the_docs_name_exists() -> None:
+    wrong = [
+        f"{page.relative_to(ROOT)}: {path}"
+        for page in pages()
+        for path in TEST_PATH.findall(page.read_text(encoding="utf-8"))
+        if not (ROOT / path).exists()
+    ]
+    assert wrong == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.file)
+def test_the_reference_page_is_current(page: Page) -> None:
+    from eslang.interpreter import Interpreter
+
+    with Interpreter() as interp:
+        text = page_text(interp, page)
+    written = (ROOT / "docs" / "reference" / page.file).read_text(encoding="utf-8")
+    assert written == text, "python -m eslang.tools.docs docs/reference writes it anew"
+
+
 def test_every_decision_is_numbered_once_and_indexed() -> None:
     index = (ROOT / "docs/explanation/where-the-papers-are-silent.md").read_text(encoding="utf-8")
     records = sorted(path.name for path in (ROOT / "docs/decisions").glob("0*.md"))
@@ -126,5 +148,16 @@ def test_every_decision_that_a_docstring_names_exists() -> None:
         if path.suffix in (".py", ".esl") and "tests" not in path.parts
         for number in DECISION.findall(path.read_text(encoding="utf-8"))
         if int(number) not in known
+    ]
+    assert wrong == []
+
+
+def test_every_fragment_is_named_and_written_as_the_rule_says() -> None:
+    fragments = [path for path in (ROOT / "docs/changes").iterdir() if path.name != "README.md"]
+    wrong = [
+        path.name
+        for path in fragments
+        if not re.fullmatch(r"\d{3}[a-z]?\.(added|changed|fixed)\.md", path.name)
+        or not path.read_text(encoding="utf-8").startswith("- ")
     ]
     assert wrong == []
