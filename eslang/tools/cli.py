@@ -59,18 +59,28 @@ def perform(chosen: Chosen) -> int:
     """Run the command CHOSEN, which is imported only now."""
     name = chosen.command.name
     if name == "run":
-        from eslang.tools.run import run as command
-    elif name == "repl":
-        from eslang.tools.repl import repl as command
-    elif name == "test":
-        from eslang.tools.testing import test as command
-    elif name == "check":
-        from eslang.tools.checking import check as command
-    elif name == "doc":
-        from eslang.tools.docs import doc as command
-    else:
-        from eslang.tools.explaining import explain as command
-    return command(chosen)
+        from eslang.tools.run import run
+
+        return run(chosen)
+    if name == "repl":
+        from eslang.tools.repl import repl
+
+        return repl(chosen)
+    if name == "test":
+        from eslang.tools.testing import test
+
+        return test(chosen)
+    if name == "check":
+        from eslang.tools.checking import check
+
+        return check(chosen)
+    if name == "doc":
+        from eslang.tools.docs import doc
+
+        return doc(chosen)
+    from eslang.tools.explain import explain
+
+    return explain(chosen)
 
 
 def print_help(names: list[str]) -> int:

@@ -73,7 +73,11 @@ class Editor:
         """The signature of the operator whose arguments are being typed."""
         before = self.session.default_buffer.document.text_before_cursor
         for start in reversed(open_lists(before)):
-            operator = incomplete_word(before[start + 1 :].lstrip().split(None, 1)[0]) if before[start + 1 :].strip() else ""
+            operator = (
+                incomplete_word(before[start + 1 :].lstrip().split(None, 1)[0])
+                if before[start + 1 :].strip()
+                else ""
+            )
             signature = signature_of(self.interp, operator) if operator else None
             if signature is not None:
                 return signature

@@ -1,10 +1,10 @@
 """Plans that say in their comments what must come of them.
 
 `; expect: LINE` is a line of output, `; expect trace: LINE` a line of the
-narrator's, `; expect failure: :CAUSE [ARGUMENT...]` how the plan fails, and
+narrator's, `; expect failure: :CAUSE ARGUMENT...` how the plan fails, and
 `; expect error: NAME` the diagnostic that refuses it. They are compared in
-order, blanks around them and blank lines left out. A text that expects some
-line of output expects all of them; the same holds for the trace.
+order, blanks around them and blank lines left out. The output is expected
+whole; so is the trace, where a text expects any of it.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from eslang.base.printer import prin1
 from eslang.base.render import render
 from eslang.tools.narrator import trace_line
 
-EXPECT = re.compile(r";+\s*expect(?: (?P<kind>\w+))?:(?P<rest>.*)$", re.MULTILINE)
+EXPECT = re.compile(r"^\s*;+ expect(?: (?P<kind>\w+))?:(?P<rest>.*)$", re.MULTILINE)
 KINDS = ("output", "trace", "failure", "error")
 
 
@@ -42,10 +42,10 @@ class Expected:
 
 
 class Came:
-    """What came of a run: the output, the trace, and how it ended."""
+    """What came of a run: the output, and how it ended."""
 
-    def __init__(self) -> None:
-        self.output = ""
+    def __init__(self, output: str = "") -> None:
+        self.output = output
         self.trace: list[str] = []
         self.failure: Failure | None = None
         self.error: EslError | None = None
@@ -72,38 +72,42 @@ class Came:
 
 def troubles(expected: Expected, came: Came) -> list[str]:
     """What of EXPECTED did not come, and what came unexpected; empty if all is well."""
-    found = [f"`; expect {kind}:` is not known (write one of {', '.join(KINDS)})" for kind in expected.unknown]
+    found = [
+        f"`; expect {kind}:` is not known (write one of {', '.join(KINDS)})" for kind in expected.unknown
+    ]
     if came.stop is not None:
-        return [*found, f"the run was ended: {came.stop.reason}"]
-    found += _end_troubles(expected, came)
-    if expected and (expected.lines["output"] or not expected.lines["trace"]):
-        found += compare_lines("output", expected.lines["output"], squeezed(came.output.split("\n")))
+        found.append(f"the run was ended: {came.stop.reason}")
+    found += error_troubles(expected.lines["error"], came.error)
+    found += failure_troubles(expected.lines["failure"], came.failure)
+    found += line_troubles("output", expected.lines["output"], squeezed(came.output.split("\n")))
     if expected.lines["trace"]:
-        found += compare_lines("trace", expected.lines["trace"], squeezed(came.trace))
+        found += line_troubles("trace", expected.lines["trace"], squeezed(came.trace))
     return found
 
 
-def _end_troubles(expected: Expected, came: Came) -> list[str]:
-    causes, names = expected.lines["failure"], expected.lines["error"]
-    found = []
-    if came.error is not None:
-        if came.error.diagnostic.name not in names:
-            found.append(render(came.error.diagnostic).rstrip())
-    elif names:
-        found.append(f"expected the error `{names[0]}`, but the program was accepted")
-    if came.failure is not None:
-        shown = failure_text(came.failure)
-        if not any(cause in (shown, shown.split(" ")[0]) for cause in causes):
-            wanted = f", expected `{causes[0]}`" if causes else ""
-            found.append(f"failed with `{shown}`{wanted}")
-    elif causes:
-        found.append(f"expected the failure `{causes[0]}`, but nothing failed")
-    return found
+def error_troubles(names: list[str], error: EslError | None) -> list[str]:
+    """What is wrong with the diagnostic ERROR, where one of NAMES is expected."""
+    if error is not None and error.diagnostic.name not in names:
+        return [render(error.diagnostic)]
+    if error is None and names:
+        return [f"expected the error `{names[-1]}`, but the program was accepted"]
+    return []
+
+
+def failure_troubles(texts: list[str], failure: Failure | None) -> list[str]:
+    """What is wrong with FAILURE, where one of TEXTS is expected."""
+    if failure is None:
+        return [f"expected the failure `{texts[-1]}`, but nothing failed"] if texts else []
+    shown = failure_text(failure)
+    if shown in texts:
+        return []
+    return [f"failed with `{shown}`" + (f", expected `{texts[-1]}`" if texts else "")]
 
 
 def failure_text(failure: Failure) -> str:
     """The cause of FAILURE and its arguments."""
-    return " ".join([prin1(failure.cause), *(prin1(argument) for argument in failure.arguments)])
+    parts = (failure.cause, *failure.arguments)
+    return " ".join([part if isinstance(part, str) else prin1(part) for part in parts])
 
 
 def squeezed(lines: list[str]) -> list[str]:
@@ -111,8 +115,8 @@ def squeezed(lines: list[str]) -> list[str]:
     return [line.strip() for line in lines if line.strip()]
 
 
-def compare_lines(what: str, expected: list[str], found: list[str]) -> list[str]:
-    """Where FOUND first leaves EXPECTED; empty if it does not."""
+def line_troubles(what: str, expected: list[str], found: list[str]) -> list[str]:
+    """Where the lines FOUND of WHAT first leave those EXPECTED."""
     for index in range(max(len(expected), len(found))):
         wanted = expected[index] if index < len(expected) else "(nothing more)"
         came = found[index] if index < len(found) else "(nothing more)"

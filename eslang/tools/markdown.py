@@ -1,9 +1,9 @@
 """The blocks of a Markdown page that run.
 
-A fenced block with `? ` prompts is a transcript; an ```esl block without them
-is a plan whose `; expect` comments must hold. All blocks of one page share one
-interpreter, in order, so that a page may build on what it said before; a fence
-```esl fresh``` begins anew. Other blocks are left alone.
+The fenced blocks with `? ` prompts are one conversation, in the order of the
+page, which may build on what it said before. An ```esl block without prompts
+is a program of its own, whose `; expect` comments must hold. Other blocks are
+left alone.
 """
 
 from __future__ import annotations
@@ -11,10 +11,9 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from eslang.tools.conversation import PROMPT
+from eslang.base.spans import Source
 from eslang.tools.expectations import Came, Expected, troubles
-from eslang.tools.narrator import narrate
-from eslang.tools.transcript import Stage, difference, read_transcript
+from eslang.tools.transcript import Entry, Stage, is_prompt, read_transcript, replay
 
 FENCE = re.compile(r"^(?P<indent> *)(?P<fence>`{3,}|~{3,})\s*(?P<words>[^`]*)$")
 
@@ -24,12 +23,7 @@ class Block(NamedTuple):
 
     text: str
     line: int  # of the first line inside the fence
-    fresh: bool
-
-    @property
-    def is_transcript(self) -> bool:
-        """True if the block has prompts."""
-        return any(line.startswith(PROMPT) for line in self.text.split("\n"))
+    is_transcript: bool
 
 
 def read_page(text: str) -> list[Block]:
@@ -44,12 +38,11 @@ def read_page(text: str) -> list[Block]:
         start, depth = at, len(opening["indent"])
         while at < len(lines) and not _closes(lines[at], opening["fence"]):
             at += 1
-        body = "\n".join(line[depth:] if line[:depth].isspace() else line for line in lines[start:at])
+        body = [line[depth:] if line[:depth].isspace() else line for line in lines[start:at]]
         at += 1
-        words = opening["words"].split()
-        block = Block(body, start + 1, "fresh" in words)
-        if words[:1] == ["esl"] or (not words and block.is_transcript):
-            blocks.append(block)
+        is_transcript = any(is_prompt(line) for line in body)
+        if is_transcript or opening["words"].split()[:1] == ["esl"]:
+            blocks.append(Block("\n".join(body), start + 1, is_transcript))
     return blocks
 
 
@@ -58,37 +51,32 @@ def _closes(line: str, fence: str) -> bool:
     return stripped.startswith(fence) and not stripped.strip(fence[0])
 
 
-def page_troubles(text: str, name: str) -> list[str]:
-    """Run the blocks of a page; what went otherwise than it says."""
-    stage: Stage | None = None
-    found: list[str] = []
-    for block in read_page(text):
-        if stage is None or block.fresh:
-            stage = Stage()
-        if block.is_transcript:
-            for entry in read_transcript(block.text, block.line):
-                differs = difference(entry, stage.answer_to(entry.form))
-                if differs is not None:
-                    return [*found, differs.text(name)]
-        else:
-            found += [f"{name}:{block.line}: {trouble}" for trouble in block_troubles(block, stage)]
-    return found
+def page_entries(blocks: list[Block]) -> list[Entry]:
+    """The entries of all the transcripts of a page."""
+    return [
+        entry for block in blocks if block.is_transcript for entry in read_transcript(block.text, block.line)
+    ]
 
 
-def block_troubles(block: Block, stage: Stage) -> list[str]:
-    """Run a block without prompts on STAGE; what went otherwise than it expects."""
-    from eslang.base.spans import Source
-
-    interp, came = stage.interp, Came()
+def block_troubles(block: Block, name: str) -> list[str]:
+    """Run a block without prompts; what went otherwise than it expects."""
+    came = Came()
 
     def run() -> None:
-        for reading in interp.readings(Source("<page>", block.text)):
-            interp.evaluate(reading)
+        for reading in stage.interp.readings(Source(f"{name}:{block.line}", block.text)):
+            stage.interp.evaluate(reading)
 
-    stage.take()
-    stage.listener = came.hear
-    came.of(run)
-    stage.listener = narrate
-    came.output = stage.take()
+    with Stage(listener=came.hear) as stage:
+        came.of(run)
+        came.output = stage.take()
     return troubles(Expected(block.text), came)
 
+
+def page_troubles(text: str, name: str) -> list[str]:
+    """Run all that runs of a page; what went otherwise than it says."""
+    blocks, found = read_page(text), []
+    for block in blocks:
+        if not block.is_transcript:
+            found += [f"{name}:{block.line}: {trouble}" for trouble in block_troubles(block, name)]
+    differs = replay(page_entries(blocks))
+    return [*found, differs.text(name)] if differs is not None else found

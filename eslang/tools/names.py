@@ -34,11 +34,13 @@ def signature_of(interp: Any, text: str) -> str | None:
     """The signature of the operator that TEXT names, in lower case."""
     symbol = find_symbol(interp, text)
     definition = interp.definition(symbol) if symbol is not None else None
-    return str(definition.signature) if definition is not None and definition.signature.startswith("(") else None
+    return (
+        str(definition.signature) if definition is not None and definition.signature.startswith("(") else None
+    )
 
 
 def known_names(interp: Any) -> Iterator[tuple[str, str]]:
-    """Each name that means something in the current package, with its signature or kind, in alphabetical order."""
+    """Each name that means something in the current package, with its signature; in alphabetical order."""
     found: dict[str, str] = {}
     for symbol in interp.image.package.accessible():
         if not isinstance(symbol, Symbol) or isinstance(symbol, Keyword) or symbol.name.startswith("%"):

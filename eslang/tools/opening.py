@@ -9,12 +9,34 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TextIO
 
+from eslang.base.control import Stop
 from eslang.tools.options import Chosen, Usage
 
 LATER = ("scenario", "facts")  # options whose rooms are still to be built
 Listener = Callable[[Any], None]
+
+
+class Outlet:
+    """Standard output. When nobody reads it any more, the run is to end, quietly."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self.stream = stream
+
+    def write(self, text: str) -> None:
+        """Write TEXT."""
+        try:
+            self.stream.write(text)
+        except BrokenPipeError:
+            raise Stop("nobody reads the output", 0) from None
+
+    def flush(self) -> None:
+        """Let everything written so far arrive."""
+        try:
+            self.stream.flush()
+        except BrokenPipeError:
+            raise Stop("nobody reads the output", 0) from None
 
 
 @contextmanager
@@ -36,7 +58,7 @@ def opened(chosen: Chosen, listener: Listener | None) -> Iterator[Any]:
 
         listeners.append(Tracer(stream))
     try:
-        with Interpreter(seed=seed, clock=clock, listeners=listeners) as interp:
+        with Interpreter(seed=seed, clock=clock, output=Outlet(sys.stdout), listeners=listeners) as interp:
             yield interp
     finally:
         if stream is not None:

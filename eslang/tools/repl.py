@@ -7,7 +7,6 @@ the output is a transcript that `esl test` can replay. On a terminal the editor
 
 from __future__ import annotations
 
-import signal
 import sys
 from typing import Any, TextIO
 
@@ -81,7 +80,7 @@ def from_pipe(interp: Any, stream: TextIO) -> int:
     pending, balance = "", Balance()
     with Interrupts(interp) as interrupts:
         conversation.prompt()
-        for line in stream:
+        while line := stream.readline():
             pending += line
             balance.feed(line)
             if not balance.surely_open:

@@ -99,7 +99,7 @@ def goes_on(kind: str, token: str) -> bool:
 def open_lists(text: str) -> list[int]:
     """Where the lists begin that are open at the end of TEXT, outermost first."""
     stack: list[int] = []
-    for kind, start, end in tokens(text):
+    for kind, _, end in tokens(text):
         if kind == "open":
             stack.append(end - 1)
         elif kind == "close" and stack:
@@ -108,7 +108,7 @@ def open_lists(text: str) -> list[int]:
 
 
 def indentation(text: str) -> int:
-    """How far to indent the line that follows TEXT: two behind the innermost open list, or under its first argument."""
+    """How far to indent the line that follows TEXT: a little more than its innermost open list."""
     lists = open_lists(text)
     if not lists:
         return 0
@@ -124,8 +124,7 @@ def indentation(text: str) -> int:
 
 def incomplete_word(text: str) -> str:
     """The atom that TEXT ends in, as typed so far; empty if it ends otherwise."""
-    last = ("space", 0, 0)
-    for last in tokens(text):
-        pass
-    kind, start, end = last
-    return text[start:end] if kind in ("symbol", "keyword", "variable", "number") else ""
+    found = list(tokens(text))
+    if not found or found[-1][0] not in ("symbol", "keyword", "variable", "number"):
+        return ""
+    return text[found[-1][1] :]

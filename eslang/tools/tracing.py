@@ -23,7 +23,12 @@ class Tracer:
 
     def __call__(self, event: Any) -> None:
         """Write EVENT as one line."""
-        record = {"kind": event.kind, "time": event.time, "task": plain(event.task), "form": plain(event.form)}
+        record = {
+            "kind": event.kind,
+            "time": event.time,
+            "task": plain(event.task),
+            "form": plain(event.form),
+        }
         for name, value in (event.data or {}).items():
             record[name] = plain(value)
         self.stream.write(json.dumps(record, ensure_ascii=False) + "\n")

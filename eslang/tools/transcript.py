@@ -54,27 +54,32 @@ def read_transcript(text: str, first_line: int = 1) -> list[Entry]:
     lines = text.split("\n")
     at = 0
     while at < len(lines):
-        if not lines[at].startswith(PROMPT):
+        if not is_prompt(lines[at]):
             at += 1
             continue
         start = at
         form, balance = [lines[at][len(PROMPT) :]], Balance()
         balance.feed(form[0] + "\n")
         at += 1
-        while balance.surely_open and at < len(lines) and not lines[at].startswith(PROMPT):
+        while balance.surely_open and at < len(lines) and not is_prompt(lines[at]):
             form.append(lines[at])
             balance.feed(lines[at] + "\n")
             at += 1
         answer = at
-        while at < len(lines) and not lines[at].startswith(PROMPT):
+        while at < len(lines) and not is_prompt(lines[at]):
             at += 1
         if "".join(form).strip():
             entries.append(Entry("\n".join(form), first_line + start, lines[answer:at], first_line + answer))
     return entries
 
 
+def is_prompt(line: str) -> bool:
+    """True if LINE begins with the prompt; an editor may have stripped one that stands alone."""
+    return line.startswith(PROMPT) or line == PROMPT.rstrip()
+
+
 def comparable(lines: list[str]) -> list[tuple[int, str]]:
-    """LINES as they are compared, each with its number: without remarks, trailing blanks and blank lines at the end."""
+    """LINES as they are compared, with their numbers: no remarks, no blanks at the end of lines or answer."""
     kept = [(number, line.rstrip()) for number, line in enumerate(lines) if not line.startswith(";")]
     while kept and not kept[-1][1]:
         kept.pop()
@@ -97,15 +102,18 @@ def difference(entry: Entry, answer: str) -> Difference | None:
 class Stage:
     """An interpreter for a replay: virtual time, the papers' trace lines, and the text it has written."""
 
-    def __init__(self, seed: int = 0) -> None:
+    def __init__(self, *, seed: int = 0, listener: Callable[[Any], None] = narrate) -> None:
         from eslang.interpreter import Interpreter
 
         self.written = StringIO()
-        self.listener: Callable[[Any], None] = narrate  # whoever is told the events, for the time being
-        self.interp: Any = Interpreter(
-            seed=seed, clock="virtual", output=self.written, listeners=[lambda event: self.listener(event)]
-        )
+        self.interp: Any = Interpreter(seed=seed, clock="virtual", output=self.written, listeners=[listener])
         self.conversation = Conversation(self.interp)
+
+    def __enter__(self) -> Stage:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.interp.close()
 
     def answer_to(self, form: str) -> str:
         """What FORM is answered with."""
@@ -121,13 +129,13 @@ class Stage:
         return text
 
 
-def replay(entries: list[Entry], stage: Stage | None = None) -> Difference | None:
+def replay(entries: list[Entry]) -> Difference | None:
     """Replay ENTRIES in one interpreter; the first difference, None if there is none."""
-    stage = stage or Stage()
-    for entry in entries:
-        found = difference(entry, stage.answer_to(entry.form))
-        if found is not None:
-            return found
+    with Stage() as stage:
+        for entry in entries:
+            found = difference(entry, stage.answer_to(entry.form))
+            if found is not None:
+                return found
     return None
 
 
