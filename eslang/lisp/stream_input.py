@@ -134,9 +134,9 @@ def _ask(question: str, choices: str, answers: tuple[str, str]) -> Value:
 def _question(control: Value, arguments: tuple[Value, ...]) -> str:
     if control is None:
         return ""
-    from eslang.lisp.format import format_text  # FORMAT stands on this floor's streams
+    from eslang.lisp.format import formatted  # FORMAT stands on this file, too
 
-    return format_text(control, arguments)
+    return formatted(control, arguments)
 
 
 @function("(y-or-n-p &optional control &rest arguments)")
