@@ -17,7 +17,7 @@ DOORS = {
     "print": set(),
     "input": set(),
     "sys.stdout": {"eslang/lisp/streams.py"},
-    "sys.stderr": set(),
+    "sys.stderr": {"eslang/lisp/streams.py"},
     "sys.stdin": {"eslang/lisp/streams.py"},
 }
 LATE = ("prompt_toolkit", "lark", "asyncio", "argparse", "inspect", "dataclasses", "logging", "fractions")
