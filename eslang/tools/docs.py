@@ -16,13 +16,13 @@ from eslang.base.symbols import Keyword, Symbol
 from eslang.compile.registry import Definition
 from eslang.constructs.esl.documentation import documentation_text
 from eslang.tools.names import find_symbol, known_names
-from eslang.tools.options import Chosen, Usage
+from eslang.tools.options import COMMANDS, Chosen, Usage, help_text, overview
 
 NOT_FOUND = 1
 
 
 class Page(NamedTuple):
-    """One generated page: its file, its title, what stands first, and the package it tells of."""
+    """One generated page: its file, its title, what stands first, and the packages it tells of, if any."""
 
     file: str
     title: str
@@ -44,6 +44,14 @@ PAGES = (
         "Each name means what the standard says.\n"
         "This page is made from the registry; `esl doc NAME` tells more.",
         ("COMMON-LISP",),
+    ),
+    Page(
+        "cli.md",
+        "The command",
+        "This page is what `esl --help` and its like print.\n"
+        "How to use the command: [run a plan](../how-to/run-a-plan.md), "
+        "[talk at the prompt](../how-to/talk-at-the-prompt.md), [test a plan](../how-to/test-a-plan.md).",
+        (),
     ),
 )
 
@@ -95,6 +103,8 @@ def definitions(interp: Any, package: str) -> list[Definition]:
 def page_text(interp: Any, page: Page) -> str:
     """The text of PAGE, as it should stand in docs/reference."""
     lines = [f"# {page.title}", "", page.opening, ""]
+    if not page.packages:
+        lines += command_lines()
     for package in page.packages:
         if package == "COMMON-LISP":
             lines += lisp_lines(definitions(interp, package))
@@ -102,6 +112,13 @@ def page_text(interp: Any, page: Page) -> str:
             for definition in definitions(interp, package):
                 lines += construct_lines(definition)
     return "\n".join(lines).rstrip() + "\n"
+
+
+def command_lines() -> Iterator[str]:
+    """The sections of the page about the command."""
+    yield from ("```text", *overview().rstrip().split("\n"), "```", "")
+    for command in COMMANDS.values():
+        yield from (f"## esl {command.name}", "", "```text", *help_text(command).rstrip().split("\n"), "```", "")
 
 
 def construct_lines(definition: Definition) -> Iterator[str]:

@@ -16,9 +16,9 @@ from typing import Any
 from eslang.base.control import Stop
 from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
-from eslang.base.printer import prin1
 from eslang.base.render import render
 from eslang.tools.narrator import trace_line
+from eslang.tools.report import failure_text
 
 EXPECT = re.compile(r"^\s*;+ expect(?: (?P<kind>\w+))?:(?P<rest>.*)$", re.MULTILINE)
 KINDS = ("output", "trace", "failure", "error")
@@ -102,12 +102,6 @@ def failure_troubles(texts: list[str], failure: Failure | None) -> list[str]:
     if shown in texts:
         return []
     return [f"failed with `{shown}`" + (f", expected `{texts[-1]}`" if texts else "")]
-
-
-def failure_text(failure: Failure) -> str:
-    """The cause of FAILURE and its arguments."""
-    parts = (failure.cause, *failure.arguments)
-    return " ".join([part if isinstance(part, str) else prin1(part) for part in parts])
 
 
 def squeezed(lines: list[str]) -> list[str]:

@@ -15,11 +15,11 @@ from eslang.base.failure import Failure
 from eslang.base.printer import prin1
 from eslang.base.render import render
 from eslang.base.symbols import Keyword, Symbol
-from eslang.tools.expectations import Came, Expected, failure_text, troubles
+from eslang.tools.expectations import Came, Expected, troubles
 from eslang.tools.markdown import block_troubles, page_entries, read_page
 from eslang.tools.opening import readable, seed_of
 from eslang.tools.options import Chosen, Usage
-from eslang.tools.report import place_of
+from eslang.tools.report import failure_text, place_of
 from eslang.tools.transcript import Stage, read_transcript, replay
 
 SUFFIXES = (".esl", ".transcript", ".md")
