@@ -164,8 +164,11 @@ def exponential_text(
         whole, fraction = digits[:scale], digits[scale:]
     else:
         whole, fraction = "", "0" * -scale + digits
-    fraction = fraction.ljust(places or 0, "0") if places is not None else fraction or "0"
+    if places is not None:
+        fraction = fraction.ljust(places - max(scale - 1, 0), "0")
     end = tail(point)
+    if not fraction and places is None:
+        fraction = "0"
     if not whole and (width is None or width > len(sign) + 1 + len(fraction) + len(end)):
         whole = "0"
     fits = exponent_size is None or len(end) <= exponent_size + 2

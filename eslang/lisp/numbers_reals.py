@@ -206,9 +206,9 @@ def random(limit: Value, state: Value = None) -> Value:
     The choice comes from the run's one source, so the same seed gives the same numbers.
     """
     if is_integer(limit) and limit > 0:
-        return running.session.chance.below(limit)
+        return running.session.chance.randrange(limit)
     if isinstance(limit, float) and limit > 0:
-        return running.session.chance.fraction() * limit
+        return running.session.chance.random() * limit
     if is_number(limit):
         raise simple_error("RANDOM: the limit is not above zero", limit)
     raise type_error(limit, "REAL", "random")
