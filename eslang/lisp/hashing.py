@@ -71,7 +71,7 @@ def _flat_key(value: Value, take: Callable[[Value, list[Any], list[Value]], None
             pending.append(value.car)
         else:
             take(value, tokens, pending)
-    return tuple(tokens)
+    return tuple(tokens) if len(tokens) > 1 else tokens[0]
 
 
 def _equal_atom(value: Value, tokens: list[Any], _pending: list[Value]) -> None:

@@ -233,10 +233,11 @@ def subseq(sequence: Value, start: Value, end: Value = None) -> Value:
     return like(sequence, section(sequence, start, end))
 
 
-@function("(%set-subseq sequence start end value)")
-def set_subseq(sequence: Value, start: Value, end: Value, value: Value) -> Value:
-    """Write VALUE over the elements of SEQUENCE from START up to END; return VALUE."""
-    first, stop = limits(sequence, length(sequence), start, end)
+@function("(%set-subseq sequence start &rest end-and-value)")
+def set_subseq(sequence: Value, start: Value, *end_and_value: Value) -> Value:
+    """Write the last argument over SEQUENCE from START up to the END before it."""
+    *end, value = end_and_value
+    first, stop = limits(sequence, length(sequence), start, end[0] if end else None)
     store(sequence, section(value)[: stop - first], first)
     return value
 
