@@ -47,11 +47,7 @@ def read_token(token: str, resolve: Resolve) -> Value:
     try:
         return resolve(package, name, external_only)
     except UnknownPackage as unknown:
-        near = nearest(unknown.package, unknown.known)
-        hint = f"write `{_recased(near, token)}`" if near else None
-        raise Unreadable(
-            "unknown-package", f"there is no package `{_before_colon(token)}`", "", hint
-        ) from None
+        raise _unknown_package(unknown, token) from None
     except NotExternal as absent:
         raise _not_external(absent, token) from None
 
@@ -116,8 +112,11 @@ def _upcase(text: str) -> str:
     return "".join([char.upper() if len(char.upper()) == 1 else char for char in text])
 
 
-def _before_colon(token: str) -> str:
-    return token.partition(":")[0]
+def _unknown_package(unknown: UnknownPackage, token: str) -> Unreadable:
+    package, colon, name = token.partition(":")
+    near = nearest(unknown.package, unknown.known)
+    hint = f"write `{_recased(near, token)}{colon}{name}`" if near else None
+    return Unreadable("unknown-package", f"there is no package `{package}`", "", hint)
 
 
 def _recased(name: str, token: str) -> str:
