@@ -118,7 +118,14 @@ def command_lines() -> Iterator[str]:
     """The sections of the page about the command."""
     yield from ("```text", *overview().rstrip().split("\n"), "```", "")
     for command in COMMANDS.values():
-        yield from (f"## esl {command.name}", "", "```text", *help_text(command).rstrip().split("\n"), "```", "")
+        yield from (
+            f"## esl {command.name}",
+            "",
+            "```text",
+            *help_text(command).rstrip().split("\n"),
+            "```",
+            "",
+        )
 
 
 def construct_lines(definition: Definition) -> Iterator[str]:

@@ -78,17 +78,19 @@ def from_pipe(interp: Any, stream: TextIO) -> int:
     """Answer what STREAM says; 65 if some of it was no right program."""
     conversation = opened_conversation(interp, echo=True)
     pending, balance = "", Balance()
-    with Interrupts(interp) as interrupts:
+    conversation.prompt()
+    while line := stream.readline():
+        pending += line
+        balance.feed(line)
+        if balance.surely_open:
+            continue
+        with Interrupts(interp) as interrupts:
+            pending, balance = conversation.hear(pending), Balance()
+        if interrupts.code is not None:
+            return interrupts.code
+        balance.feed(pending)
         conversation.prompt()
-        while line := stream.readline():
-            pending += line
-            balance.feed(line)
-            if not balance.surely_open:
-                pending, balance = conversation.hear(pending), Balance()
-                balance.feed(pending)
-                conversation.prompt()
-            if interrupts.code is not None:
-                return interrupts.code
+    with Interrupts(interp):
         conversation.hear(pending, last=True)
     if conversation.prompted:
         interp.output.write("\n")

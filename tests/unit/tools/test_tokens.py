@@ -17,7 +17,8 @@ def test_every_kind_of_token_is_told_apart() -> None:
     text = """(foo "a" #\\( :key ?x #?y 1/2 -3.5 'q #'f `(,@l) |a b| ; remark"""
     assert kinds(text) == [
         "open", "symbol", "string", "character", "keyword", "variable", "variable", "number",
-        "number", "quote", "symbol", "quote", "symbol", "quote", "open", "quote", "symbol", "close", "symbol", "comment",
+        "number", "quote", "symbol", "quote", "symbol",
+        "quote", "open", "quote", "symbol", "close", "symbol", "comment",
     ]  # fmt: skip
 
 
