@@ -26,6 +26,7 @@ def truncate_pair(number: Value, divisor: Value, name: str) -> Pair:
         raise division_by_zero(name, number, divisor)
     if isinstance(number, float) or isinstance(divisor, float):
         try:
+            number, divisor = float(number), float(divisor)
             whole = int(number / divisor)
             return whole, number - whole * divisor
         except (OverflowError, ValueError):
