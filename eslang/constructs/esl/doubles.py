@@ -11,13 +11,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from eslang.base.border import to_lisp, to_python
 from eslang.base.failure import simple_error
 from eslang.base.image import Cell
 from eslang.base.lists import from_items, items
 from eslang.base.many import many_of, primary
 from eslang.base.running import running, to_function
-from eslang.base.symbols import Symbol, Value
+from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.compile.registry import ESL, function
+from eslang.runtime.failures import fail
 
 Answer = Callable[..., Value]
 
@@ -43,7 +45,7 @@ class Double:
         self.cell = cell
         self.name = symbol
         self.steps: list[Step] = []
-        self.calls: list[tuple[Value, ...]] = []
+        self.received: list[tuple[Value, ...]] = []
         self.original: Any = None
         self.stand_in = self._make_stand_in()
 
@@ -61,8 +63,8 @@ class Double:
 
     def answer(self, arguments: tuple[Value, ...]) -> Value:
         """Answer one call, with all values."""
-        self.calls.append(arguments)
-        step = self.step_for(len(self.calls))
+        self.received.append(arguments)
+        step = self.step_for(len(self.received))
         if step is None:
             return None
         if step.after:
@@ -79,6 +81,35 @@ class Double:
             if call <= 0:
                 return step
         return self.steps[-1] if self.steps else None
+
+    # The script, as Python writes it: `double.returns(3, times=2).fails("grip-lost", 4, after=1.5)`.
+
+    def returns(self, value: Any = None, *, times: int = 1, after: float = 0) -> Double:
+        """Next, return VALUE."""
+        return self._then(lambda *_: to_lisp(value), times, after)
+
+    def fails(self, cause: Any, *arguments: Any, times: int = 1, after: float = 0) -> Double:
+        """Next, fail with CAUSE and ARGUMENTS, at the place of the call."""
+        given = [to_lisp(argument) for argument in arguments]
+        name = Keyword(cause) if isinstance(cause, str) else cause
+        return self._then(lambda *_: fail(name, *given), times, after)
+
+    def does(self, function: Callable[..., Any], *, times: int = 1, after: float = 0) -> Double:
+        """Next, do what the Python FUNCTION does with the arguments."""
+        return self._then(lambda *args: to_lisp(function(*map(to_python, args))), times, after)
+
+    def passes(self, *, times: int = 1, after: float = 0) -> Double:
+        """Next, do what the function itself does."""
+        return self._then(None, times, after)
+
+    def _then(self, answer: Answer | None, times: int, after: float) -> Double:
+        self.steps.append(Step(answer, times, after))
+        return self
+
+    @property
+    def calls(self) -> list[list[Any]]:
+        """The arguments of each call so far, as Python values."""
+        return [[to_python(argument) for argument in call] for call in self.received]
 
     def install(self) -> Double:
         """Take the place of the function, unless the double has it already."""
@@ -144,4 +175,4 @@ def double_calls(name: Value) -> Value:
     double = getattr(stand_in, "double", None)
     if double is None:
         raise simple_error("no double stands in for this name", name)
-    return from_items([from_items(call) for call in double.calls])
+    return from_items([from_items(call) for call in double.received])
