@@ -38,6 +38,12 @@ class Failure(Exception):
         shown = " ".join([str(self.cause), *(str(a) for a in self.arguments)])
         return f"failure {shown}"
 
+    def print_lisp(self, settings: Any) -> str:
+        """How the printer shows it: for people, as a sentence."""
+        from eslang.base.failure_text import message_of  # made of what prints, and it of failures
+
+        return f"#<FAILURE {self.cause}>" if settings.escape else message_of(self)
+
 
 def type_error(datum: Any, expected: str, operator: str | None = None) -> Failure:
     """DATUM is not of the type EXPECTED; arguments (datum expected [operator])."""

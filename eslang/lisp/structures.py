@@ -1,0 +1,191 @@
+"""Structures: the objects that DEFSTRUCT defines, and what is generated for them.
+
+A structure is its type and a list of slot values. Readers, writers and the
+like are closures made here; the macro, in stdlib/structures.esl, names them
+and compiles the constructors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from eslang.base.failure import TYPE_ERROR, Failure, simple_error
+from eslang.base.lists import items
+from eslang.base.printer import write_text
+from eslang.base.symbols import Datum, Symbol, Value, truth
+from eslang.compile.registry import function
+from eslang.lisp.hashing import STRUCTURED
+from eslang.lisp.streams import StringOutputStream
+from eslang.lisp.types import NAME_OF, Type, define_simple_type, define_type, find_type
+
+
+class StructureType(Datum):
+    """What a DEFSTRUCT defined; called with a value, it says whether that is one of its structures."""
+
+    __slots__ = ("ancestors", "name", "printer", "slots")
+
+    def __init__(self, name: Symbol, slots: Value, parent: StructureType | None) -> None:
+        self.name = name
+        self.slots = slots  # a list of (name default read-only accessor), inherited ones first
+        self.ancestors: tuple[StructureType, ...] = (*parent.ancestors, parent) if parent is not None else ()
+        self.printer: Any = None  # (structure, stream) -> anything
+
+    def __call__(self, value: Value) -> bool:
+        return value.__class__ is Structure and (value.type is self or self in value.type.ancestors)
+
+    def slot_names(self) -> list[str]:
+        """The names of the slots, in order."""
+        return [slot.car.name for slot in items(self.slots)]
+
+
+class Structure(Datum):
+    """One object of a structure type: its slots' values, in order."""
+
+    __slots__ = ("items", "type")
+
+    def __init__(self, kind: StructureType, values: list[Value]) -> None:
+        self.type = kind
+        self.items = values
+
+    def print_lisp(self, settings: Any) -> str:
+        """#S(NAME :SLOT value ...), or what the type's own printer writes."""
+        printer = self.printer()
+        if printer is not None:
+            stream = StringOutputStream()
+            printer(self, stream)
+            return stream.take()
+        if settings.level is not None and settings.depth >= settings.level:
+            return "#"
+        inner = settings._replace(depth=settings.depth + 1)
+        parts = [write_text(self.type.name, inner)]
+        for name, value in zip(self.type.slot_names(), self.items, strict=True):
+            parts.append(f":{name} {write_text(value, inner)}")
+        return f"#S({' '.join(parts)})"
+
+    def printer(self) -> Any:
+        """The innermost printer of this structure's type and those it includes."""
+        for kind in (self.type, *reversed(self.type.ancestors)):
+            if kind.printer is not None:
+                return kind.printer
+        return None
+
+
+STRUCTURED[Structure] = lambda structure: [structure.type, *structure.items]
+NAME_OF[Structure] = lambda structure: structure.type.name
+define_simple_type("STRUCTURE-OBJECT", lambda value: value.__class__ is Structure)
+
+
+def find_structure_type(name: Value) -> StructureType | None:
+    """The structure type called NAME, if the running program defined one."""
+    kind = find_type(name)
+    claim: Any = kind.includes if kind is not None else None
+    return claim if claim.__class__ is StructureType else None
+
+
+@function("(%structure-type name)")
+def structure_type(name: Value) -> Value:
+    """The structure type called NAME.
+
+    Fails: with :error if there is none.
+    """
+    kind = find_structure_type(name)
+    if kind is None:
+        raise simple_error("this names no structure type:", name)
+    return kind
+
+
+@function("(%structure-slots name)")
+def structure_slots(name: Value) -> Value:
+    """The slots of the structure type NAME, each (name default read-only accessor)."""
+    return structure_type(name).slots
+
+
+@function("(%define-structure name parent slots printer)")
+def define_structure(name: Symbol, parent: Value, slots: Value, printer: Value) -> Value:
+    """Define the structure type NAME; return NAME.
+
+    If it is defined as it was, the structures there are remain of the type.
+    """
+    included = structure_type(parent) if parent is not None else None
+    kind = StructureType(name, slots, included)
+    known = find_structure_type(name)
+    if known is not None and known.ancestors == kind.ancestors and known.slot_names() == kind.slot_names():
+        known.slots, kind = slots, known
+    kind.printer = printer
+    define_type(name, Type(includes=kind))
+    return name
+
+
+def _refuse(kind: StructureType, value: Value, accessor: Value) -> Failure:
+    return Failure(TYPE_ERROR, value, kind.name, accessor)
+
+
+def _named(function: Callable[..., Value], name: Value) -> Callable[..., Value]:
+    """FUNCTION, called NAME in reports."""
+    function.__name__ = function.__qualname__ = name.name
+    return function
+
+
+@function("(%structure type &rest values)")
+def structure(kind: StructureType, *values: Value) -> Value:
+    """A structure of TYPE with VALUES in its slots."""
+    return Structure(kind, list(values))
+
+
+@function("(%structure-reader name index accessor)")
+def structure_reader(name: Value, index: int, accessor: Value) -> Value:
+    """The function ACCESSOR, which reads slot INDEX of structures of the type NAME."""
+    kind = structure_type(name)
+
+    def read(structure: Value) -> Value:
+        if structure.__class__ is Structure and (structure.type is kind or kind in structure.type.ancestors):
+            return structure.items[index]
+        raise _refuse(kind, structure, accessor)
+
+    return _named(read, accessor)
+
+
+@function("(%structure-writer name index accessor)")
+def structure_writer(name: Value, index: int, accessor: Value) -> Value:
+    """The function (SETF ACCESSOR), which writes slot INDEX of structures of the type NAME."""
+    kind = structure_type(name)
+
+    def write(value: Value, structure: Value) -> Value:
+        if structure.__class__ is Structure and (structure.type is kind or kind in structure.type.ancestors):
+            structure.items[index] = value
+            return value
+        raise _refuse(kind, structure, accessor)
+
+    return _named(write, accessor)
+
+
+@function("(%structure-predicate name predicate)")
+def structure_predicate(name: Value, predicate: Value) -> Value:
+    """The function PREDICATE, true of the structures of the type NAME."""
+    kind = structure_type(name)
+    return _named(lambda value: truth(kind(value)), predicate)
+
+
+@function("(%structure-copier name copier)")
+def structure_copier(name: Value, copier: Value) -> Value:
+    """The function COPIER, which copies structures of the type NAME."""
+    kind = structure_type(name)
+
+    def copy(structure: Value) -> Value:
+        if not kind(structure):
+            raise _refuse(kind, structure, copier)
+        return copy_structure(structure)
+
+    return _named(copy, copier)
+
+
+@function("(copy-structure structure)")
+def copy_structure(structure: Value) -> Value:
+    """Return a structure of the type of STRUCTURE, with the same things in its slots.
+
+    Fails: with :type-error if STRUCTURE is none.
+    """
+    if structure.__class__ is not Structure:
+        raise Failure(TYPE_ERROR, structure, Symbol.intern("STRUCTURE-OBJECT", "COMMON-LISP"))
+    return Structure(structure.type, list(structure.items))
