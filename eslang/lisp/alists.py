@@ -5,10 +5,11 @@ from __future__ import annotations
 from eslang.base.failure import simple_error, type_error
 from eslang.base.lists import Cons, from_items, items
 from eslang.base.many import pack
-from eslang.base.symbols import Datum, T, Value
+from eslang.base.symbols import Datum, Value
 from eslang.compile.registry import function
 from eslang.lisp.arguments import take_keys
 from eslang.lisp.matching import Judge, judge_if, judge_item
+from eslang.lisp.predicates import is_eql
 
 _TESTS = ("TEST", "TEST-NOT", "KEY")
 _KEY = ("KEY",)
@@ -113,7 +114,7 @@ def _find_property(plist: Value, indicators: list[Value]) -> Value:
             raise _malformed(plist)
         key = rest.car
         for indicator in indicators:
-            if key is indicator or (key.__class__ is int and indicator.__class__ is int and key == indicator):
+            if is_eql(key, indicator):
                 return rest
         rest = rest.cdr.cdr
     return None
@@ -142,34 +143,3 @@ def get_properties_values(plist: Value, indicators: Value) -> Value:
 def get_properties(plist: Value, indicators: Value) -> Value:
     """Return the first of INDICATORS in PLIST, its value, and the tail there."""
     return get_properties_values(plist, indicators)[0]
-
-
-@function("(%putf plist indicator value)")
-def putf(plist: Value, indicator: Value, value: Value) -> Value:
-    """Return PLIST, changed so that it holds VALUE under INDICATOR."""
-    tail = _find_property(plist, [indicator])
-    if tail is None:
-        return Cons(indicator, Cons(value, plist))
-    tail.cdr.car = value
-    return plist
-
-
-def remf_values(plist: Value, indicator: Value) -> Value:
-    """PLIST without the property INDICATOR, and whether it had it."""
-    tail = _find_property(plist, [indicator])
-    if tail is None:
-        return pack([plist, None])
-    after = tail.cdr.cdr
-    if tail is plist:
-        return pack([after, T])
-    rest = plist
-    while rest.cdr.cdr is not tail:
-        rest = rest.cdr.cdr
-    rest.cdr.cdr = after
-    return pack([plist, T])
-
-
-@function("(%remf plist indicator)", many=remf_values)
-def remf(plist: Value, indicator: Value) -> Value:
-    """Return PLIST, changed to lack the property INDICATOR; second, whether it had it."""
-    return remf_values(plist, indicator)[0]

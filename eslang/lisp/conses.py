@@ -115,20 +115,21 @@ def _register_parts() -> None:
     for _ in range(3):
         words = [letter + word for letter in "ad" for word in words]
         for word in words:
-            _register_part(f"c{word}r", word, " of the ".join(f"c{letter}r" for letter in word))
+            inner = " (".join(f"C{letter}R".upper() for letter in word)
+            _register_part(f"c{word}r", word, f"({inner} LIST{')' * len(word)}")
     ordinals = "first second third fourth fifth sixth seventh eighth ninth tenth"
     for place, ordinal in enumerate(ordinals.split()):
-        _register_part(ordinal, "a" + "d" * place, f"{ordinal} element")
+        _register_part(ordinal, "a" + "d" * place, f"the {ordinal} element of LIST")
 
 
 def _register_part(name: str, letters: str, words: str) -> None:
     access, change = _compose(letters), _compose_setter(letters)
     access.__name__ = name
-    access.__doc__ = f"Return the {words} of LIST; NIL where the list ends before."
+    access.__doc__ = f"Return {words}; NIL, if LIST ends before."
     function(f"({name} list)")(access)
     if change is not set_car:
         change.__name__ = f"set_{name}"
-        change.__doc__ = f"Make VALUE the {words} of LIST; return VALUE."
+        change.__doc__ = f"Make VALUE {words}; return VALUE."
     function(f"(%set-{name} list value)")(change)
 
 

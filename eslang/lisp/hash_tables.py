@@ -39,7 +39,7 @@ def _test_name(test: Value) -> str:
 
 @function("(make-hash-table &key test size rehash-size rehash-threshold weakness synchronized)")
 def make_hash_table(*options: Value) -> Value:
-    """Return an empty hash table whose keys are the same under TEST: EQL, if not given."""
+    """Return an empty hash table with keys compared by TEST, or else EQL."""
     names = ("TEST", "SIZE", "REHASH-SIZE", "REHASH-THRESHOLD", "WEAKNESS", "SYNCHRONIZED")
     return HashTable(_test_name(take_keys(options, names)[0]))
 
@@ -107,7 +107,7 @@ def hash_table_count(table: Value) -> Value:
 
 @function("(hash-table-size hash-table)")
 def hash_table_size(table: Value) -> Value:
-    """Return the number of keys that HASH-TABLE has room for: as many as it has."""
+    """Return how many keys HASH-TABLE has room for: as many as it has."""
     return hash_table_count(table)
 
 
@@ -119,19 +119,19 @@ def hash_table_test(table: Value) -> Value:
 
 @function("(%hash-table-pairs hash-table)")
 def hash_table_pairs(table: Value) -> Value:
-    """Return a list of (KEY . VALUE) for each key of HASH-TABLE, for loops over it."""
+    """Return a list of (KEY . VALUE) for each key of HASH-TABLE."""
     return from_items([Cons(key, value) for key, value in check_table(table, "LOOP").pairs()])
 
 
 @function("(%hash-table-keys hash-table)")
 def hash_table_keys(table: Value) -> Value:
-    """Return a list of the keys of HASH-TABLE, for loops over them."""
+    """Return a list of the keys of HASH-TABLE."""
     return from_items(check_table(table, "LOOP").keys())
 
 
 @function("(%hash-table-values hash-table)")
 def hash_table_values(table: Value) -> Value:
-    """Return a list of the values of HASH-TABLE, for loops over them."""
+    """Return a list of the values of HASH-TABLE."""
     return from_items(list(check_table(table, "LOOP").entries.values()))
 
 

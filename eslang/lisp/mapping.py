@@ -84,5 +84,5 @@ def mapl(f: Value, first: Value, *more: Value) -> Value:
 
 @function("(mapcon function list &rest more-lists)")
 def mapcon(f: Value, first: Value, *more: Value) -> Value:
-    """Join, as NCONC does, the lists that FUNCTION makes of LIST and its tails."""
+    """Join, as NCONC does, the lists that FUNCTION makes of the tails."""
     return nconc(*_collect(f, first, more, False))

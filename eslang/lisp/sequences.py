@@ -235,7 +235,7 @@ def subseq(sequence: Value, start: Value, end: Value = None) -> Value:
 
 @function("(%set-subseq sequence start &rest end-and-value)")
 def set_subseq(sequence: Value, start: Value, *end_and_value: Value) -> Value:
-    """Write the last argument over SEQUENCE from START up to the END before it."""
+    """Write the last argument over SEQUENCE from START up to END."""
     *end, value = end_and_value
     first, stop = limits(sequence, length(sequence), start, end[0] if end else None)
     store(sequence, section(value)[: stop - first], first)

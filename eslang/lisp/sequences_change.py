@@ -137,37 +137,37 @@ def _replaced(new: Value, sequence: Value, judge: Judge, sign: bool, options: li
 
 @function(f"(substitute new old sequence {_ITEM_KEYS})")
 def substitute(new: Value, old: Value, sequence: Value, *options: Value) -> Value:
-    """Return a copy of SEQUENCE with NEW for each element that OLD matches."""
+    """Return a copy of SEQUENCE with NEW for all that OLD matches."""
     return like(sequence, _replaced(new, sequence, *by_item(old, options, _TESTS)))
 
 
 @function(f"(substitute-if new predicate sequence {_PREDICATE_KEYS})")
 def substitute_if(new: Value, predicate: Value, sequence: Value, *options: Value) -> Value:
-    """Return a copy of SEQUENCE with NEW for each element that satisfies PREDICATE."""
+    """Return a copy of SEQUENCE with NEW for all that satisfies PREDICATE."""
     return like(sequence, _replaced(new, sequence, *by_predicate(predicate, True, options, _KEY)))
 
 
 @function(f"(substitute-if-not new predicate sequence {_PREDICATE_KEYS})")
 def substitute_if_not(new: Value, predicate: Value, sequence: Value, *options: Value) -> Value:
-    """Return a copy of SEQUENCE with NEW for each element that fails PREDICATE."""
+    """Return a copy of SEQUENCE with NEW for all that fails PREDICATE."""
     return like(sequence, _replaced(new, sequence, *by_predicate(predicate, False, options, _KEY)))
 
 
 @function(f"(nsubstitute new old sequence {_ITEM_KEYS})")
 def nsubstitute(new: Value, old: Value, sequence: Value, *options: Value) -> Value:
-    """Store NEW for each element of SEQUENCE that OLD matches."""
+    """Store NEW for all in SEQUENCE that OLD matches."""
     return store(sequence, _replaced(new, sequence, *by_item(old, options, _TESTS)))
 
 
 @function(f"(nsubstitute-if new predicate sequence {_PREDICATE_KEYS})")
 def nsubstitute_if(new: Value, predicate: Value, sequence: Value, *options: Value) -> Value:
-    """Store NEW for each element of SEQUENCE that satisfies PREDICATE."""
+    """Store NEW for all in SEQUENCE that satisfies PREDICATE."""
     return store(sequence, _replaced(new, sequence, *by_predicate(predicate, True, options, _KEY)))
 
 
 @function(f"(nsubstitute-if-not new predicate sequence {_PREDICATE_KEYS})")
 def nsubstitute_if_not(new: Value, predicate: Value, sequence: Value, *options: Value) -> Value:
-    """Store NEW for each element of SEQUENCE that fails PREDICATE."""
+    """Store NEW for all in SEQUENCE that fails PREDICATE."""
     return store(sequence, _replaced(new, sequence, *by_predicate(predicate, False, options, _KEY)))
 
 

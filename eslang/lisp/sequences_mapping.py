@@ -39,7 +39,7 @@ def map_(result_type: Value, f: Value, sequence: Value, *more: Value) -> Value:
 
 @function("(map-into result-sequence function &rest sequences)")
 def map_into(target: Value, f: Value, *sequences: Value) -> Value:
-    """Store what FUNCTION makes of the elements of SEQUENCES in RESULT-SEQUENCE."""
+    """Store in RESULT-SEQUENCE what FUNCTION makes of SEQUENCES."""
     call = to_function(f)
     filled = target.__class__ is Vector and target.fill is not None
     size = len(target.items) if filled else length(target)

@@ -69,19 +69,19 @@ def find_if_not(predicate: Value, sequence: Value, *options: Value) -> Value:
 
 @function("(position item sequence &key test test-not key from-end start end)")
 def position(item: Value, sequence: Value, *options: Value) -> Value:
-    """Return the place of the first element of SEQUENCE that ITEM matches, or NIL."""
+    """Return where in SEQUENCE ITEM first matches an element, or NIL."""
     return _place(sequence, *by_item(item, options, _TESTS))[1]
 
 
 @function("(position-if predicate sequence &key key from-end start end)")
 def position_if(predicate: Value, sequence: Value, *options: Value) -> Value:
-    """Return the place of the first element that satisfies PREDICATE, or NIL."""
+    """Return where in SEQUENCE an element first satisfies PREDICATE, or NIL."""
     return _place(sequence, *by_predicate(predicate, True, options, _KEY))[1]
 
 
 @function("(position-if-not predicate sequence &key key from-end start end)")
 def position_if_not(predicate: Value, sequence: Value, *options: Value) -> Value:
-    """Return the place of the first element that fails PREDICATE, or NIL."""
+    """Return where in SEQUENCE an element first fails PREDICATE, or NIL."""
     return _place(sequence, *by_predicate(predicate, False, options, _KEY))[1]
 
 
@@ -118,7 +118,7 @@ _TWO_RANGES = ("TEST", "TEST-NOT", "KEY", "FROM-END", "START1", "END1", "START2"
 
 @function("(search sequence-1 sequence-2 &key test test-not key from-end start1 end1 start2 end2)")
 def search(first: Value, second: Value, *options: Value) -> Value:
-    """Return the place in SEQUENCE-2 where SEQUENCE-1 first (or last) stands, or NIL."""
+    """Return where SEQUENCE-1 first (or last) stands in SEQUENCE-2, or NIL."""
     test, test_not, key, from_end, start1, end1, start2, end2 = take_keys(options, _TWO_RANGES)
     agrees = agreement(test, test_not)
     wanted = keyed(section(first, start1, end1), key)
@@ -135,7 +135,7 @@ def search(first: Value, second: Value, *options: Value) -> Value:
 
 @function("(mismatch sequence-1 sequence-2 &key test test-not key from-end start1 end1 start2 end2)")
 def mismatch(first: Value, second: Value, *options: Value) -> Value:
-    """Return the first place of SEQUENCE-1 that differs from SEQUENCE-2, or NIL.
+    """Return where SEQUENCE-1 first differs from SEQUENCE-2, or NIL.
 
     With FROM-END, one more than the last such place.
     """

@@ -118,7 +118,7 @@ def set_difference(first: Value, second: Value, *options: Value) -> Value:
 
 @function("(union list-1 list-2 &key test test-not key)")
 def union(first: Value, second: Value, *options: Value) -> Value:
-    """Return the elements of LIST-1, and those of LIST-2 that match none of them."""
+    """Return the elements of LIST-1, and those of LIST-2 that match none."""
     return from_items(items(first) + _select(second, first, options, False, swap=True))
 
 

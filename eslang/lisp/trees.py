@@ -107,13 +107,13 @@ def _from_alist(alist: Value, options: tuple[Value, ...]) -> Callable[[Value], V
 
 @function("(sublis alist tree &key test test-not key)")
 def sublis(alist: Value, tree: Value, *options: Value) -> Value:
-    """Return a copy of TREE with what ALIST holds for each part it has a key for."""
+    """Return a copy of TREE with what ALIST holds for its parts."""
     return _rebuild(tree, _from_alist(alist, options))
 
 
 @function("(nsublis alist tree &key test test-not key)")
 def nsublis(alist: Value, tree: Value, *options: Value) -> Value:
-    """Change TREE so that what ALIST holds stands for each part it has a key for."""
+    """Change TREE so that what ALIST holds stands for its parts."""
     return _rebuild(tree, _from_alist(alist, options), copy=False)
 
 

@@ -31,7 +31,7 @@ def array_has_fill_pointer_p(array: Value) -> Value:
 
 @function("(fill-pointer vector)")
 def fill_pointer(array: Value) -> Value:
-    """Return the number of active elements of VECTOR, which has a fill pointer."""
+    """Return the fill pointer of VECTOR: how many elements are active."""
     _check_fill(array, "FILL-POINTER")
     return len(array.text) if array.__class__ is String else array.fill
 

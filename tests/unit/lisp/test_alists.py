@@ -82,15 +82,3 @@ def test_a_malformed_property_list_is_an_error() -> None:
 def test_get_properties_gives_indicator_value_and_tail() -> None:
     assert many("get-properties", [A, 1, B, 2], [B, C]) == [B, 2, [B, 2]]
     assert many("get-properties", [A, 1], [X]) == [None, None, None]
-
-
-def test_putf_changes_or_adds() -> None:
-    plist = lisp([A, 1])
-    assert raw("%putf", plist, A, 2) is plist
-    assert call("%putf", plist, B, 3) == [B, 3, A, 2]
-
-
-def test_remf_tells_whether_it_removed_something() -> None:
-    assert many("%remf", [A, 1, B, 2, C, 3], B) == [[A, 1, C, 3], True]
-    assert many("%remf", [A, 1, B, 2], A) == [[B, 2], True]
-    assert many("%remf", [A, 1], B) == [[A, 1], None]
