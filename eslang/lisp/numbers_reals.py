@@ -193,7 +193,7 @@ _register("atanh", math.atanh, "the inverse hyperbolic tangent")
 
 @function("(atan number &optional divisor)")
 def atan(number: Value, divisor: Value = None) -> Value:
-    """Return the arc tangent of NUMBER, or of NUMBER / DIVISOR in its quadrant."""
+    """Return the arc tangent of NUMBER, or of NUMBER / DIVISOR."""
     if divisor is None:
         return math.atan(as_float(number, "atan"))
     return math.atan2(as_float(number, "atan"), as_float(divisor, "atan"))

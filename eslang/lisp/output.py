@@ -178,7 +178,7 @@ def write_string(string: Value, *options: Value) -> Value:
 
 @function("(write-line string &optional stream &key start end)")
 def write_line(string: Value, *options: Value) -> Value:
-    """Write STRING, or its part from START to END, and a newline; return STRING."""
+    """Write STRING, or its part from START to END, and a newline; return it."""
     text, stream = _part(string, options, "write-line")
     output_stream(stream, "write-line").write(text + "\n")
     return string

@@ -170,7 +170,7 @@ def list_all_packages() -> Value:
 
 @function("(make-package name &key nicknames use)")
 def make_package(name: Value, *options: Value) -> Value:
-    """Make a package called NAME that uses the packages of USE (COMMON-LISP unless given)."""
+    """Make a package called NAME that uses those of USE, or COMMON-LISP."""
     nicknames, use = take_keys(options, ("NICKNAMES", "USE"), UNSUPPLIED)
     text = text_of(name, "make-package")
     others = [] if nicknames is UNSUPPLIED else [text_of(n, "make-package") for n in items(nicknames)]
@@ -324,7 +324,7 @@ def _import_from(package: Package, clauses: Value, shadowing: bool) -> None:
 
 @function("(%package-symbols package kind)")
 def package_symbols(package: Value, kind: Value) -> Value:
-    """Return the symbols of PACKAGE; KIND is :accessible, :present or :external.
+    """Return the :accessible, :present or :external symbols of PACKAGE.
 
     For DO-SYMBOLS, DO-EXTERNAL-SYMBOLS and their like.
     """

@@ -141,11 +141,11 @@ def _question(control: Value, arguments: tuple[Value, ...]) -> str:
 
 @function("(y-or-n-p &optional control &rest arguments)")
 def y_or_n_p(control: Value = None, *arguments: Value) -> Value:
-    """Ask the user a question, written as by FORMAT; return T for y and NIL for n."""
+    """Ask the user, as FORMAT writes it; return T for y and NIL for n."""
     return _ask(_question(control, arguments), "(y or n)", ("y", "n"))
 
 
 @function("(yes-or-no-p &optional control &rest arguments)")
 def yes_or_no_p(control: Value = None, *arguments: Value) -> Value:
-    """Ask the user a question, written as by FORMAT; return T for yes and NIL for no."""
+    """Ask the user, as FORMAT writes it; return T for yes and NIL for no."""
     return _ask(_question(control, arguments), "(yes or no)", ("yes", "no"))

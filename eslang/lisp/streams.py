@@ -238,7 +238,7 @@ def make_fill_stream(string: Value) -> Value:
 
 @function("(make-string-input-stream string &optional (start 0) end)")
 def make_string_input_stream(string: Value, start: Value = 0, end: Value = None) -> Value:
-    """Return an input stream that gives the characters of STRING from START to END."""
+    """Return a stream that gives what is in STRING from START to END."""
     text = check_string(string, "make-string-input-stream").text
     first, last = bounds(string, len(text), start, end, "make-string-input-stream")
     return InputStream(lambda: "", text[first:last])
@@ -246,7 +246,7 @@ def make_string_input_stream(string: Value, start: Value = 0, end: Value = None)
 
 @function("(make-two-way-stream input-stream output-stream)")
 def make_two_way_stream(source: Value, output: Value) -> Value:
-    """Return a stream that reads from INPUT-STREAM and writes to OUTPUT-STREAM."""
+    """Return a stream that reads INPUT-STREAM and writes OUTPUT-STREAM."""
     return TwoWayStream(
         input_stream(source, "make-two-way-stream"), output_stream(output, "make-two-way-stream")
     )

@@ -151,15 +151,15 @@ def _register_case(name: str, change: Callable[[str], str], how: str) -> None:
         return _set_text(string, part(check_string(string, "n" + name).text, string, options))
 
     fresh.__name__, in_place.__name__ = name, "n" + name
-    fresh.__doc__ = f"Return STRING, or its part from START to END, {how}."
-    in_place.__doc__ = f"Change STRING, or its part from START to END, to be {how}."
+    fresh.__doc__ = f"Return STRING, or the part from START to END, {how}."
+    in_place.__doc__ = f"Change STRING, or the part from START to END, to be {how}."
     function(f"({name} string &key start end)")(fresh)
     function(f"(n{name} string &key start end)")(in_place)
 
 
 _register_case("string-upcase", _upcase, "in upper case")
 _register_case("string-downcase", _downcase, "in lower case")
-_register_case("string-capitalize", capitalize, "with capitalized words")
+_register_case("string-capitalize", capitalize, "capitalized")
 
 
 def _bag(characters: Value, name: str) -> str:
@@ -247,7 +247,7 @@ def _register_comparison(
 
     compare.__name__ = name
     returns = "" if holds is operator.eq else "\n\n    Returns: the first place where they differ, or NIL."
-    compare.__doc__ = f"Tell whether STRING1 and STRING2 {claim}.{returns}"
+    compare.__doc__ = f"Tell if STRING1 and STRING2 {claim}.{returns}"
     function(f"({name} string1 string2 &key start1 end1 start2 end2)")(compare)
 
 

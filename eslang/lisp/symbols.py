@@ -51,7 +51,7 @@ def make_symbol(name: Value) -> Value:
 
 @function("(copy-symbol symbol &optional copy-properties)")
 def copy_symbol(symbol: Value, copy_properties: Value = None) -> Value:
-    """Return a new symbol called as SYMBOL is; under COPY-PROPERTIES it means the same."""
+    """Return a new symbol of that name; with COPY-PROPERTIES, of that meaning."""
     copy = Symbol.uninterned(name_of(symbol, "copy-symbol"))
     if copy_properties is not None:
         old, new = cell_of(symbol, "copy-symbol"), cell_of(copy, "copy-symbol")
@@ -64,7 +64,7 @@ def copy_symbol(symbol: Value, copy_properties: Value = None) -> Value:
 
 @function('(gensym &optional (prefix "G"))')
 def gensym(prefix: Value = None) -> Value:
-    """Return a new symbol that is like no other; its name is PREFIX and a number.
+    """Return a new symbol like no other; its name is PREFIX and a number.
 
     The numbers belong to the interpreter, so the same program makes the same names.
     """
@@ -136,7 +136,7 @@ def _is_operator(cell: Cell) -> bool:
 
 @function("(fboundp name)")
 def fboundp(name: Value) -> Value:
-    """Return T if NAME, a symbol or (setf symbol), names a function, macro or special form."""
+    """Return T if NAME names a function, macro or special form."""
     cell, slot = _place_of(name, "fboundp")
     return truth(hasattr(cell, slot) or (slot == "function" and _is_operator(cell)))
 
@@ -170,7 +170,7 @@ def fdefinition(name: Value) -> Value:
 
 @function("(%set-fdefinition name function)")
 def set_fdefinition(name: Value, new: Value) -> Value:
-    """Let NAME, a symbol or (setf symbol), name FUNCTION, for (setf fdefinition)."""
+    """Let NAME or (setf NAME) mean FUNCTION, for (setf fdefinition)."""
     cell, slot = _place_of(name, "fdefinition")
     if not callable(new):
         raise type_error(new, "FUNCTION", "fdefinition")
@@ -236,7 +236,7 @@ def get(symbol: Value, indicator: Value, default: Value = None) -> Value:
 
 @function("(%set-get symbol indicator value-or-default &optional value)")
 def set_get(symbol: Value, indicator: Value, *values: Value) -> Value:
-    """Give SYMBOL the property INDICATOR, for (setf get); the value comes last."""
+    """Set the property INDICATOR of SYMBOL, for (setf get); value last."""
     cell, value = cell_of(symbol, "get"), values[-1]
     found = _find_property(cell, indicator)
     if found is None:
@@ -260,13 +260,6 @@ def remprop(symbol: Value, indicator: Value) -> Value:
             return T
         before, rest = rest.cdr, rest.cdr.cdr
     return None
-
-
-@function("(special-operator-p symbol)")
-def special_operator_p(symbol: Value) -> Value:
-    """Return T if SYMBOL names a special form."""
-    cell = cell_of(symbol, "special-operator-p")
-    return truth(getattr(cell.definition, "kind", None) == "special form")
 
 
 @function("(constantp form &optional environment)")
