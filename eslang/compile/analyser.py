@@ -7,7 +7,8 @@ macro is called and its expansion analysed in its place.
 
 from __future__ import annotations
 
-from typing import NamedTuple, NoReturn
+from collections.abc import Callable
+from typing import Any, NamedTuple, NoReturn
 
 from eslang.base.diagnostics import Diagnostic, EslError, Label
 from eslang.base.image import Image
@@ -55,8 +56,16 @@ class Use(NamedTuple):
 class Analyser:
     """Analyses the forms of one top-level form."""
 
-    def __init__(self, image: Image, spans: Spans, span: Span | None, uses: list[Use] | None = None) -> None:
+    def __init__(
+        self,
+        image: Image,
+        spans: Spans,
+        span: Span | None,
+        compile_expander: Callable[[Value, Scope], Any],
+        uses: list[Use] | None = None,
+    ) -> None:
         self.image = image
+        self.compile_expander = compile_expander  # a MACROLET function from its LAMBDA form
         self.spans = spans
         self.span = span  # of the innermost form that has one
         self.names: dict[str, int] = {}

@@ -10,6 +10,7 @@ import re
 
 from eslang.base.diagnostics import Diagnostic, EslError, IncompleteInput, Label, error_at
 from eslang.base.spans import Source, Span
+from eslang.reader.tables import WRONG, tables
 
 Place = tuple[int, int]  # line, column
 
@@ -61,16 +62,36 @@ def kind_of(source: Source) -> str:
     return "text" if source.name.startswith(("<", "-")) else "file"
 
 
-def explain_broken(source: Source, offset: int) -> EslError:
-    """The diagnostic for the text at OFFSET, where no token begins."""
+def explain_broken(source: Source, offset: int, begin: int) -> EslError:
+    """The diagnostic for the text at OFFSET, where no token begins, in a form read from BEGIN on."""
     char = source.text[offset]
     if char == "\0":
         return nul_character(source, offset)
     if char == "#":
         return _explain_dispatch(source, offset)
     if char == '"':
+        offset = _likely_string(source, begin, offset)
         return _cut_off(source, offset, _STRING, "unclosed-string", "string", 'add `"` where it should end')
     return _explain_name(source, offset)
+
+
+def _likely_string(source: Source, begin: int, offset: int) -> int:
+    """Where the string began whose end is missing, if that is earlier than OFFSET.
+
+    A string over several lines with a name right behind its end has most
+    likely ended at the beginning of the next one.
+    """
+    text = source.text
+    while (found := tables().pattern.match(text, begin)) is not None and found.end() < offset:
+        kind = found.lastgroup or WRONG
+        start, begin = found.span(kind)
+        if kind == "BLOCK":
+            begin = pass_comment(source, start)
+        elif kind == WRONG:
+            break
+        elif kind == "STRING" and "\n" in found[kind] and text[begin].isalnum():
+            return start
+    return offset
 
 
 def _explain_name(source: Source, offset: int) -> EslError:
@@ -132,9 +153,10 @@ def _explain_dispatch(source: Source, offset: int) -> EslError:
         name = _NAME.match(source.text, stop + 1)
         assert name is not None
         if source.text[name.end() : name.end() + 1] in ("|", "\\", "\0"):
-            return explain_broken(source, stop + 1)
+            return _explain_name(source, stop + 1)
         thing = "number" if what in "XBOR" else "name"
-        diagnostic = Diagnostic("missing-form", f"no {thing} follows `{sign}`", (Label(span),))
+        label = Label(span, f"expected a {thing} right behind it")
+        diagnostic = Diagnostic("missing-form", f"no {thing} follows `{sign}`", (label,))
         return (IncompleteInput if stop + 1 == len(source.text) else EslError)(diagnostic)
     if what == "\0" or (what == "\\" and source.text.startswith("\0", stop + 1)):
         return nul_character(source, source.text.index("\0", stop))

@@ -215,7 +215,7 @@ class Reader:
         if kind == END and len(self._states) == 1:
             return True
         if kind == WRONG:
-            raise explain_broken(self.source, self.offset)
+            raise explain_broken(self.source, self.offset, self._start)
         waiting = self._values[-1] if self._values and self._values[-1].__class__ is str else ""
         opened = [mark for value, mark in zip(self._values, self._marks, strict=True) if _is_open(value)]
         line, column = self._line, self.offset - self._margin

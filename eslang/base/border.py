@@ -1,0 +1,65 @@
+"""The border: Lisp values as Python people expect them, and back.
+
+NIL ⇄ None, T ⇄ True, False → NIL, lists ⇄ lists, strings ⇄ str, ratios ⇄
+Fraction; symbols and keywords are themselves; all else passes untouched
+(language reference §10).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from eslang.base.lists import Cons, from_items
+from eslang.base.many import Values, primary
+from eslang.base.symbols import T, Value
+from eslang.base.text import String
+
+
+def to_python(value: Value) -> Any:
+    """VALUE for Python code; a dotted or circular list stays as it is."""
+    kind = value.__class__
+    if kind is String:
+        return value.text
+    if value is T:
+        return True
+    if kind is Cons:
+        return _python_list(value)
+    if kind is Values:
+        return to_python(primary(value))
+    if kind.__name__ == "Ratio":
+        from fractions import Fraction
+
+        return Fraction(value.numerator, value.denominator)
+    return value
+
+
+def _python_list(lst: Cons) -> Any:
+    """A list as a Python list, built without recursion along the cdr."""
+    elements: list[Value] = []
+    seen: set[int] = set()
+    rest: Value = lst
+    while rest.__class__ is Cons:
+        if id(rest) in seen:
+            return lst
+        seen.add(id(rest))
+        elements.append(rest.car)
+        rest = rest.cdr
+    return lst if rest is not None else [to_python(element) for element in elements]
+
+
+def to_lisp(value: Any) -> Value:
+    """VALUE for Lisp code."""
+    kind = value.__class__
+    if kind is str:
+        return String(value)
+    if kind is bool:
+        return T if value else None
+    if kind is list:
+        return from_items([to_lisp(element) for element in value])
+    if kind.__name__ == "Fraction":
+        from eslang.base.ratios import canonical
+
+        return canonical(value)
+    if kind is not int and kind is not float and isinstance(value, str):
+        return String(str(value))
+    return value

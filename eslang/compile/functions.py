@@ -1,0 +1,251 @@
+"""Special forms that make functions: LAMBDA, FUNCTION, FLET, LABELS, MACROLET."""
+
+from __future__ import annotations
+
+from eslang.base.lists import Cons, items
+from eslang.base.printer import prin1
+from eslang.base.symbols import Symbol, Value
+from eslang.compile.analyser import LAMBDA, Analyser
+from eslang.compile.bindings import is_special, sequential
+from eslang.compile.core import (
+    Bind,
+    FunctionOf,
+    KeyParameter,
+    Lambda,
+    Local,
+    LocalFunctions,
+    Node,
+    Optional,
+    Variable,
+)
+from eslang.compile.core_forms import SPECIAL_NAME, declare_specials, declared, split_body
+from eslang.compile.destructuring import macro_lambda
+from eslang.compile.exits import named_block
+from eslang.compile.lambda_lists import BadLambdaList, LambdaList, Parameter, parse_lambda_list
+from eslang.compile.registry import special_form
+from eslang.compile.scope import SPECIAL, LocalMacro, Scope
+
+SETF = Symbol.intern("SETF", "COMMON-LISP")
+
+
+def checked_lambda_list(analyser: Analyser, lst: Value, *, destructuring: bool = False) -> LambdaList:
+    """The parts of a lambda list; a diagnostic for what is wrong with it."""
+    try:
+        return parse_lambda_list(lst, destructuring=destructuring)
+    except BadLambdaList as mistake:
+        shown = f": `{prin1(mistake.element).lower()}`" if mistake.element is not None else ""
+        analyser.fail("malformed-lambda-list", mistake.message + shown, analyser.spans.of(lst))
+
+
+class _Parameters:
+    """Binds the parameters of one lambda list, in order, in the function's scope."""
+
+    def __init__(self, analyser: Analyser, scope: Scope, specials: set[Symbol]) -> None:
+        self.analyser = analyser
+        self.scope = scope
+        self.specials = specials
+        self.dynamic: list[tuple[Symbol, Node]] = []
+        self.seen: set[Symbol] = set()
+
+    def bind(self, symbol: Symbol) -> Variable:
+        """The variable of a parameter; a special one is bound dynamically in the body."""
+        if symbol in self.seen:
+            self.analyser.fail("malformed-lambda-list", f"the parameter `{prin1(symbol).lower()}` stands here twice")
+        self.seen.add(symbol)
+        if not is_special(self.analyser, symbol, self.specials):
+            return self.analyser.variable(symbol, self.scope)
+        variable = self.analyser.unnamed_variable(symbol, self.scope)
+        variable.mentioned = True
+        self.dynamic.append((symbol, Local(self.analyser.span, variable)))
+        return variable
+
+    def default(self, parameter: Parameter) -> tuple[Variable, Node, Variable | None]:
+        """The variable, default and supplied-p variable of an optional or keyword parameter."""
+        default = self.analyser.nodes(Cons(parameter.default, None), self.scope)[0]
+        variable = self.bind(parameter.name)
+        supplied = self.bind(parameter.supplied) if parameter.supplied is not None else None
+        return variable, default, supplied
+
+
+def function_node(
+    analyser: Analyser, name: str, lst: Value, forms: Value, scope: Scope, block: Symbol | None = None, *, named: bool = False
+) -> Lambda:
+    """The node of a function with lambda list LST and body FORMS, in a block called BLOCK if `named`."""
+    parts = checked_lambda_list(analyser, lst)
+    declarations, documentation, forms = split_body(forms, documented=True)
+    procedure = analyser.procedure(name, scope)
+    inner = scope.inner(procedure)
+    specials = declared(declarations, SPECIAL_NAME)
+    parameters = _Parameters(analyser, inner, specials)
+    required = [parameters.bind(symbol) for symbol in parts.required]
+    optional = [Optional(*parameters.default(parameter)) for parameter in parts.optional]
+    rest = parameters.bind(parts.rest) if parts.has_rest else None
+    keys = None
+    if parts.keys is not None:
+        keys = [KeyParameter(p.keyword, *parameters.default(p)) for p in parts.keys if p.keyword is not None]
+    for symbol, _ in parameters.dynamic:
+        inner.variables[symbol] = SPECIAL
+    body = _function_body(analyser, parts, declarations, forms, inner, block, named, bool(parameters.dynamic))
+    if parameters.dynamic:
+        body = Bind(analyser.span, parameters.dynamic, body)
+    return Lambda(
+        analyser.span, procedure, required, optional, rest, keys, parts.allow_other_keys, body, documentation
+    )
+
+
+def _function_body(
+    analyser: Analyser,
+    parts: LambdaList,
+    declarations: list[Cons],
+    forms: Value,
+    scope: Scope,
+    block: Symbol | None,
+    named: bool,
+    dynamic: bool,
+) -> Node:
+    scope.procedure.nesting += 2 if dynamic else 0
+    if parts.aux:
+        if named:
+            forms = Cons(Cons(BLOCK, Cons(block, forms)), None)
+        pairs = [(p.name, Cons(p.default, None)) for p in parts.aux]
+        return sequential(analyser, pairs, declarations, forms, scope)
+    declare_specials(analyser, declarations, scope)
+    return named_block(analyser, block, forms, scope) if named else analyser.body(forms, scope)
+
+
+BLOCK = Symbol.intern("BLOCK", "COMMON-LISP")
+
+
+@special_form("(lambda lambda-list &body forms)")
+def lambda_(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Give a function with the parameters LAMBDA-LIST and the body FORMS."""
+    return function_node(analyser, "lambda", form.cdr.car, form.cdr.cdr, scope)
+
+
+@special_form("(function name)")
+def function(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Give the function called NAME here, or the one that a LAMBDA form makes."""
+    name = form.cdr.car
+    if name.__class__ is Cons and name.car is LAMBDA:
+        return analyser.nodes(form.cdr, scope)[0]
+    if name.__class__ is Cons and name.car is NAMED_LAMBDA:
+        block = name.cdr.car
+        return function_node(
+            analyser, prin1(block).lower(), name.cdr.cdr.car, name.cdr.cdr.cdr, scope, block, named=True
+        )
+    setf = setf_name(name)
+    if not isinstance(name, Symbol) and setf is None:
+        analyser.fail("bad-operator", f"`{prin1(name).lower()}` cannot name a function")
+    found = scope.find_function((SETF, setf) if setf is not None else name)
+    if isinstance(found, Variable):
+        return Local(analyser.span, found)
+    symbol = setf or name
+    if isinstance(found, LocalMacro) or (
+        setf is None and not hasattr(analyser.image.cell(symbol), "function") and _is_operator(analyser, symbol)
+    ):
+        analyser.fail("bad-operator", f"`{prin1(symbol).lower()}` is no function, but a macro or special form")
+    if setf is None:
+        analyser.use("function", symbol, None, form, scope)
+    return FunctionOf(analyser.span, symbol, setf=setf is not None)
+
+
+def _is_operator(analyser: Analyser, symbol: Symbol) -> bool:
+    """True if SYMBOL names a macro or a special form."""
+    return symbol in analyser.image.special_forms or analyser.image.cell(symbol).macro is not None
+
+
+NAMED_LAMBDA = Symbol.intern("%NAMED-LAMBDA", "COMMON-LISP")
+
+
+def setf_name(name: Value) -> Symbol | None:
+    """The symbol of a function name (setf symbol); None for any other name."""
+    if name.__class__ is Cons and name.car is SETF and name.cdr.__class__ is Cons and isinstance(name.cdr.car, Symbol):
+        symbol: Symbol = name.cdr.car
+        return symbol
+    return None
+
+
+def _local_definitions(analyser: Analyser, form: Cons) -> list[tuple[Value, Value, Value, Cons]]:
+    """The (key, name, lambda list, body) of each definition of FLET, LABELS or MACROLET."""
+    result = []
+    rest = form.cdr.car
+    while rest.__class__ is Cons:
+        definition = rest.car
+        name = definition.car if definition.__class__ is Cons else None
+        setf = setf_name(name)
+        if definition.__class__ is not Cons or definition.cdr.__class__ is not Cons or not (
+            isinstance(name, Symbol) or setf is not None
+        ):
+            analyser.fail(
+                "malformed-binding",
+                f"`{prin1(definition)}` defines no function",
+                analyser.spans.of(definition) or analyser.spans.element(rest),
+                hint="write `(name (parameter...) form...)`",
+            )
+        result.append(((SETF, setf) if setf is not None else name, setf or name, definition.cdr.car, definition))
+        rest = rest.cdr
+    return result
+
+
+def _local_functions(analyser: Analyser, form: Cons, scope: Scope, *, recursive: bool) -> Node:
+    inner = scope.inner()
+    functions: list[tuple[Variable, Lambda]] = []
+    definitions = _local_definitions(analyser, form)
+    variables = [analyser.unnamed_variable(name, inner) for _, name, _, _ in definitions]
+    bound = {key: variable for (key, _, _, _), variable in zip(definitions, variables, strict=True)}
+    if recursive:
+        inner.functions.update(bound)
+    around = analyser.span
+    for (_, name, lst, definition), variable in zip(definitions, variables, strict=True):
+        analyser.span = analyser.spans.of(definition) or around
+        node = function_node(
+            analyser, name.name.lower(), lst, definition.cdr.cdr, inner if recursive else scope, name, named=True
+        )
+        functions.append((variable, node))
+    analyser.span = around
+    inner.functions.update(bound)
+    body_scope = inner.inner()
+    declarations, _, forms = split_body(form.cdr.cdr)
+    declare_specials(analyser, declarations, body_scope)
+    return LocalFunctions(analyser.span, functions, analyser.body(forms, body_scope))
+
+
+@special_form("(flet definitions &body forms)")
+def flet(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run FORMS with the local functions of DEFINITIONS, which do not see one another."""
+    return _local_functions(analyser, form, scope, recursive=False)
+
+
+@special_form("(labels definitions &body forms)")
+def labels(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run FORMS with the local functions of DEFINITIONS, which see one another."""
+    return _local_functions(analyser, form, scope, recursive=True)
+
+
+@special_form("(macrolet definitions &body forms)")
+def macrolet(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run FORMS with the local macros of DEFINITIONS."""
+    return analyser.body(*macrolet_scope(analyser, form, scope))
+
+
+def macrolet_scope(analyser: Analyser, form: Cons, scope: Scope) -> tuple[Value, Scope]:
+    """The body of a MACROLET form, and the scope with its macros."""
+    inner = scope.inner()
+    for key, name, lst, definition in _local_definitions(analyser, form):
+        expander = analyser.compile_expander(macro_lambda(analyser, name, lst, definition.cdr.cdr), scope)
+        inner.functions[key] = LocalMacro(expander)
+    declarations, _, forms = split_body(form.cdr.cdr)
+    declare_specials(analyser, declarations, inner)
+    return forms, inner
+
+
+def parameter_names(lst: Value) -> str:
+    """A lambda list as it is shown in a signature, without defaults."""
+    shown = []
+    for element in items(lst) if lst.__class__ is Cons else []:
+        while element.__class__ is Cons and not isinstance(element.car, Symbol):
+            element = element.car
+        shown.append(prin1(element.car if element.__class__ is Cons else element).lower())
+    return " ".join(shown)
+
+

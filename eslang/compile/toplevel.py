@@ -1,0 +1,111 @@
+"""Top-level forms: compiled and run one at a time, so each sees what those before it defined.
+
+A PROGN at top level is its forms, one after the other. Every piece of code
+that was run is remembered in order, so that a text that was compiled once can
+be run again from its code alone (cache.py).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import CodeType
+from typing import Any
+
+from eslang.base.diagnostics import error_at
+from eslang.base.image import Image
+from eslang.base.lists import Cons
+from eslang.base.spans import Span, Spans
+from eslang.base.symbols import Symbol, Value
+from eslang.compile import backquote, bindings, core_forms, definitions, destructuring, exits, functions
+from eslang.compile.analyser import Analyser, Use
+from eslang.compile.expand import expand_macro
+from eslang.compile.scope import LocalMacro, Scope
+from eslang.compile.unit import Unit
+
+ROOMS = (core_forms, bindings, exits, functions, destructuring, definitions, backquote)
+PROGN, EVAL_WHEN = (Symbol.intern(name, "COMMON-LISP") for name in ("PROGN", "EVAL-WHEN"))
+
+
+class Compiler:
+    """Compiles the top-level forms of one text."""
+
+    def __init__(self, image: Image, support: dict[str, Any], name: str) -> None:
+        self.image = image
+        self.unit = Unit(image, support, name)
+        self.codes: list[CodeType] = []
+        self.uses: list[Use] | None = None
+
+    def run(
+        self,
+        form: Value,
+        spans: Spans,
+        span: Span | None,
+        *,
+        run: Callable[[CodeType], Value],
+        many: bool = False,
+    ) -> Value:
+        """Compile FORM and let RUN run its code; the value, or with `many` all the values."""
+        try:
+            form = self._expanded(form, spans, span)
+            parts = self._parts(form)
+            if parts is not None:
+                result: Value = None
+                for part in parts[:-1]:
+                    self.run(part, spans, spans.of(part) or span, run=run)
+                for part in parts[-1:]:
+                    result = self.run(part, spans, spans.of(part) or span, run=run, many=many)
+                return result
+            code = self._code(form, spans, span, many)
+        except RecursionError:
+            raise error_at("nested-too-deep", "this form is nested too deep to compile", span) from None
+        self.codes.append(code)
+        return run(code)
+
+    def _parts(self, form: Value) -> list[Value] | None:
+        """The forms that a top-level PROGN or EVAL-WHEN stands for; None for any other form."""
+        if form.__class__ is not Cons or form.car not in (PROGN, EVAL_WHEN):
+            return None
+        rest = form.cdr if form.car is PROGN else form.cdr.cdr if form.cdr.__class__ is Cons else None
+        parts = []
+        while rest.__class__ is Cons:
+            parts.append(rest.car)
+            rest = rest.cdr
+        return parts if rest is None else None
+
+    def _expanded(self, form: Value, spans: Spans, span: Span | None) -> Value:
+        """FORM with its macros expanded at the head, so that a PROGN shows."""
+        while form.__class__ is Cons and isinstance(form.car, Symbol) and form.car not in self.image.special_forms:
+            expander = self.image.cell(form.car).macro
+            if expander is None:
+                break
+            analyser, scope = self._scope(spans, spans.of(form) or span)
+            definition = self.image.cell(form.car).definition
+            if definition is not None:
+                analyser.check_shape(definition, form)
+            expansion = expand_macro(form, expander, scope, analyser)
+            if expansion.__class__ is Cons:
+                spans.copy_from(expansion, form)
+            form = expansion
+        return form
+
+    def _scope(self, spans: Spans, span: Span | None) -> tuple[Analyser, Scope]:
+        analyser = Analyser(self.image, spans, span, self._expander, self.uses)
+        return analyser, Scope(None, analyser.procedure("top level", None), analyser)
+
+    def _code(self, form: Value, spans: Spans, span: Span | None, many: bool) -> CodeType:
+        analyser, scope = self._scope(spans, span)
+        node = analyser.node(form, scope)
+        return self.unit.top(node, scope.procedure, many=many)
+
+    def _expander(self, form: Value, scope: Scope) -> Any:
+        """The function of a MACROLET expander; it sees the macros around it, but no variables."""
+        analyser = scope.analyser
+        inner = Scope(None, analyser.procedure("expander", None), analyser)
+        frame: Scope | None = scope
+        while frame is not None:
+            for name, found in frame.functions.items():
+                if isinstance(found, LocalMacro):
+                    inner.functions.setdefault(name, found)
+            frame = frame.outer
+        node = analyser.node(form, inner)
+        return self.unit.load(self.unit.top(node, inner.procedure, many=False))()

@@ -1,0 +1,163 @@
+"""Units: the Python code of one text, its constants, and how it is put together.
+
+A unit has one table of global names for all its top-level forms: the support
+functions, a cell for each global name, the constants. Functions are numbered,
+so that the variant of a function that gives all its values can be made from
+the function at hand when it is first wanted (many_of).
+"""
+
+from __future__ import annotations
+
+import ast
+from types import CodeType, FunctionType
+from typing import Any
+
+from eslang.base.diagnostics import error_at
+from eslang.base.image import Image
+from eslang.base.symbols import Symbol, Value
+from eslang.compile.core import Exit, Lambda, Node, Procedure
+from eslang.compile.emit import Destination
+from eslang.compile.emit_functions import Emitter
+
+DEEPEST = 400  # nested control structures, in statements: Python's compiler walks them on the C stack
+SEPARATOR = "\0"
+
+
+class Unit:
+    """The code of one text, as it grows form by form."""
+
+    def __init__(self, image: Image, support: dict[str, Any], name: str) -> None:
+        self.image = image
+        self.name = name
+        self.globals: dict[str, Any] = dict(support)
+        self.globals["%many"] = self.variant
+        self.cells: dict[Symbol, str] = {}
+        self.constants: dict[int, tuple[str, Value]] = {}
+        self.lambdas: list[Lambda] = []
+        self.variants: dict[int, CodeType] = {}
+        self.titles: dict[str, tuple[str, int]] = {}
+        self.stable: set[str] = set()  # Python names that are assigned once
+        self.counter = 0
+
+    # --- names -----------------------------------------------------------------
+
+    def temporary(self) -> str:
+        """A Python name that nothing else in this unit has."""
+        self.counter += 1
+        name = f"%{self.counter}"
+        self.stable.add(name)
+        return name
+
+    def position(self, target: Exit) -> str:
+        """The Python variable that says where a tagbody goes on."""
+        return f"%at {target.token.name}"
+
+    def cell(self, symbol: Symbol) -> str:
+        """The global name of SYMBOL's cell."""
+        name = self.cells.get(symbol)
+        if name is None:
+            name = f"@{symbol.package}:{symbol.name}" if symbol.package else f"@{len(self.cells)}:{symbol.name}"
+            self.cells[symbol] = name
+            self.globals[name] = self.image.cell(symbol)
+        return name
+
+    def constant_name(self, value: Value) -> str:
+        """The global name of a constant."""
+        entry = self.constants.get(id(value))
+        if entry is None:
+            entry = (f"'{len(self.constants)}", value)
+            self.constants[id(value)] = entry
+            self.globals[entry[0]] = value
+        return entry[0]
+
+    def number(self, node: Lambda) -> None:
+        """Give a function its number."""
+        if not node.number:
+            self.lambdas.append(node)
+            node.number = len(self.lambdas)
+
+    def function_name(self, node: Lambda) -> str:
+        """A Python name for the definition of a function."""
+        self.number(node)
+        return f"%function {node.number}"
+
+    def title(self, name: str, node: Lambda) -> None:
+        """Let the code of the Python definition NAME carry the Lisp name and the number of NODE."""
+        self.titles[name] = (node.procedure.name, node.number)
+
+    def check_nesting(self, nesting: int, node: Node) -> None:
+        """Refuse control structures nested so deep that Python could not compile them."""
+        if nesting > DEEPEST:
+            raise error_at("nested-too-deep", f"control structures are nested more than {DEEPEST} deep", node.span)
+
+    # --- putting together ------------------------------------------------------
+
+    def top(self, node: Node, procedure: Procedure, *, many: bool) -> CodeType:
+        """The code of a top-level form, as a function without parameters."""
+        lambda_ = Lambda(node.span, procedure, [], [], None, None, False, node)
+        self.number(lambda_)
+        emitter = Emitter(self, procedure, many=many)
+        emitter.move(node.span)
+        body = emitter.body_of(lambda: emitter.run(node, Destination("return", many)))
+        if not body or not isinstance(body[-1], ast.Return):
+            body.append(emitter.give(emitter.constant(None)))
+        self.title("%top", lambda_)
+        definition = emitter.define("%top", [], [], None, body)
+        return self.extract([definition], "%top")
+
+    def extract(self, body: list[ast.stmt], name: str) -> CodeType:
+        """Compile definitions, and take out the code of the one called NAME."""
+        module = compile(ast.Module(body, []), self.name, "exec", dont_inherit=True)
+        return self.finished(find_code(module, name))
+
+    def finished(self, code: CodeType) -> CodeType:
+        """CODE with Lisp names: the qualified name carries the number of the function."""
+        constants = tuple(self.finished(c) if isinstance(c, CodeType) else c for c in code.co_consts)
+        name, number = self.titles.get(code.co_name, (code.co_name, 0))
+        return code.replace(co_consts=constants, co_name=name, co_qualname=f"{name}{SEPARATOR}{number}")
+
+    def load(self, code: CodeType) -> FunctionType:
+        """The function of a top-level form's code."""
+        return FunctionType(code, self.globals)
+
+    # --- variants --------------------------------------------------------------
+
+    def variant(self, function: FunctionType) -> FunctionType:
+        """The variant of FUNCTION, one of ours, that gives all its values."""
+        number = function.__code__.co_qualname.partition(SEPARATOR)[2]
+        if not int(number or 0):
+            return function
+        code = self.variant_code(int(number))
+        cells = dict(zip(function.__code__.co_freevars, function.__closure__ or (), strict=True))
+        closure = tuple(cells[name] for name in code.co_freevars)
+        variant = FunctionType(code, self.globals, function.__name__, function.__defaults__, closure)
+        variant.__qualname__ = function.__qualname__
+        return variant
+
+    def variant_code(self, number: int) -> CodeType:
+        """The code of function NUMBER that gives all its values."""
+        code = self.variants.get(number)
+        if code is None:
+            node = self.lambdas[number - 1]
+            emitter = Emitter(self, node.procedure.parent, many=True)
+            emitter.move(node.span)
+            name = self.function_name(node)
+            definition = emitter.definition(name, node, many=True)
+            names = [variable.name for variable in node.procedure.free]
+            outer: list[ast.stmt] = [emitter.assign(free, emitter.constant(None)) for free in names]
+            wrapper = emitter.define("%outer", [], [], None, [*outer, definition])
+            code = self.variants[number] = self.extract([wrapper], name)
+        return code
+
+
+def find_code(code: CodeType, name: str) -> CodeType:
+    """The code of the definition called NAME, somewhere inside CODE."""
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            if constant.co_name == name:
+                return constant
+            try:
+                return find_code(constant, name)
+            except KeyError:
+                pass
+    raise KeyError(name)

@@ -1,0 +1,136 @@
+"""Recovery clauses: their syntax, and the functions they become (ESL §2.1).
+
+(CAUSE [:retries N] . BODY) or ((CAUSE . ARGS) [:retries N] . BODY). What is
+wrong with a clause is said at the place where it is wrong.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NoReturn
+
+from eslang.base.failure import control_error
+from eslang.base.lists import Cons, from_items, lisp_list
+from eslang.base.printer import prin1
+from eslang.base.suggest import nearest
+from eslang.base.symbols import Keyword, Symbol, Value
+from eslang.base.text import String
+from eslang.compile.registry import CL, ESL
+
+RETRIES, INFINITE = Keyword("RETRIES"), Keyword("INFINITE")
+LAMBDA, QUOTE, OPTIONAL, REST, SYMBOL_MACROLET = (
+    Symbol.intern(name, CL) for name in ("LAMBDA", "QUOTE", "&OPTIONAL", "&REST", "SYMBOL-MACROLET")
+)
+THIS_FORM = Symbol.intern("%RECOVERY-FORM", ESL)  # stands, inside a clause, for its form
+
+
+def is_one_clause(clauses: Cons) -> bool:
+    """True for a clause that stands where a list of them could: its first element is an atom."""
+    return clauses.car.__class__ is not Cons
+
+
+class RecoveryClause:
+    """One recovery clause, taken apart."""
+
+    def __init__(self, clause: Value, holder: Cons, environment: Any) -> None:
+        self.environment = environment
+        if clause.__class__ is not Cons:
+            refuse(
+                environment,
+                "malformed-clause",
+                f"`{prin1(clause).lower()}` is no recovery clause",
+                holder,
+                hint="write `(cause form...)`",
+            )
+        self.clause = clause
+        head = clause.car
+        self.arguments: Value = None
+        if head.__class__ is Cons:
+            head, self.arguments = head.car, head.cdr
+        if not isinstance(head, Symbol):
+            refuse(
+                environment,
+                "malformed-clause",
+                f"`{prin1(head).lower()}` cannot be the cause of a failure",
+                clause,
+                hint="write a keyword, such as `:widget-broken`",
+            )
+        self.cause = head
+        self.limit: Value = 1
+        self.body = clause.cdr
+        self.options()
+
+    def options(self) -> None:
+        """Take the option :retries from the head of the body."""
+        body = self.body
+        if body.__class__ is not Cons or not isinstance(body.car, Keyword) or body.cdr is None:
+            return
+        if body.car is not RETRIES:
+            close = nearest(body.car.name, ["RETRIES"])
+            if close is None:
+                return  # a body may begin with a keyword, idle as it is
+            refuse(
+                self.environment,
+                "unknown-clause-option",
+                f"a recovery clause has no option `{prin1(body.car).lower()}`",
+                body,
+                label="expected `:retries`",
+                hint=f"write `:retries {prin1(body.cdr.car).lower()}`",
+            )
+        self.limit = body.cdr.car
+        self.body = body.cdr.cdr
+        wrong = self.limit.__class__ is int and self.limit < 0
+        literal = not isinstance(self.limit, Symbol) and self.limit.__class__ is not Cons
+        other = isinstance(self.limit, Keyword) and self.limit is not INFINITE
+        if wrong or other or self.limit is None or (literal and self.limit.__class__ is not int):
+            refuse(
+                self.environment,
+                "malformed-clause",
+                f"`{prin1(self.limit).lower()}` is no number of retries",
+                body.cdr,
+                hint="write a whole number, or `:infinite`",
+            )
+
+    def procedure(self, this: Symbol) -> Value:
+        """The function of the clause's arguments; (retry) in it means the form THIS."""
+        declare = lisp_list(lisp_list(THIS_FORM, this))
+        body = Cons(SYMBOL_MACROLET, Cons(declare, self.body))
+        return lisp_list(LAMBDA, self.lambda_list(), body)
+
+    def lambda_list(self) -> Value:
+        """Arguments in excess are discarded, missing ones are NIL (ESL §2.1)."""
+        names: list[Value] = []
+        rest = self.arguments
+        while rest.__class__ is Cons:
+            if not isinstance(rest.car, Symbol) or isinstance(rest.car, Keyword):
+                refuse(
+                    self.environment,
+                    "malformed-clause",
+                    f"`{prin1(rest.car).lower()}` cannot name an argument of a failure",
+                    rest,
+                )
+            names.append(rest.car)
+            rest = rest.cdr
+        if rest is not None:
+            names += [REST, rest]
+        if OPTIONAL not in names:
+            names.insert(0, OPTIONAL)
+        if REST not in names:
+            names += [REST, Symbol.uninterned("EXCESS")]
+        return from_items(names)
+
+    def specification(self) -> list[Value]:
+        """The cause, the number of retries (computed at entrance) and the place, as forms."""
+        place = None
+        span = self.environment.analyser.spans.of(self.clause) if self.environment is not None else None
+        if span is not None:
+            place = lisp_list(String(span.source.name), *span[1:])
+        return [lisp_list(QUOTE, self.cause), self.limit, lisp_list(QUOTE, place)]
+
+
+def refuse(environment: Any, name: str, message: str, holder: Cons, label: str = "", hint: str | None = None) -> NoReturn:
+    """Raise the diagnostic of a clause that is not as it should be; it stands in HOLDER's car."""
+    if environment is None:
+        raise control_error(message)
+    spans = environment.analyser.spans
+    span = spans.element(holder) or spans.of(holder.car) or spans.of(holder)
+    environment.analyser.fail(name, message, span, label, hint)

@@ -1,0 +1,149 @@
+"""Goals (ESL §3): TO-ACHIEVE says how a condition is brought about, ACHIEVE does it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from eslang.base.failure import Failure, unbound_variable
+from eslang.base.lists import Cons, from_items, lisp_list
+from eslang.base.running import running
+from eslang.base.symbols import Keyword, Symbol, T, Value
+from eslang.compile.registry import CL, ESL, function, macro
+from eslang.constructs.esl.conditions import instance_form, test_form
+from eslang.runtime import failures
+
+NO_APPLICABLE_METHOD = Keyword("NO-APPLICABLE-METHOD")
+CONDITION_NOT_ACHIEVED = Keyword("CONDITION-NOT-ACHIEVED")
+LAMBDA, QUOTE, COND = (Symbol.intern(name, CL) for name in ("LAMBDA", "QUOTE", "COND"))
+DEFINE_GOAL, ACHIEVE, BINDING = (Symbol.intern(n, ESL) for n in ("%DEFINE-GOAL", "%ACHIEVE", "%LOGICAL-BINDING"))
+
+
+@macro("(to-achieve condition &rest methods)", ESL)
+def to_achieve(form: Cons, environment: Any) -> Value:
+    """Say how CONDITION is achieved: METHODS are COND clauses, tried in order.
+
+    CONDITION is not evaluated. Variables in it, such as ?DEVICE, match
+    anything; #?DEVICE is what it matched, in the methods. A later TO-ACHIEVE
+    for the same condition takes the place of the earlier.
+
+    Returns: CONDITION.
+
+    Example:
+        ? (progn (defvar *lamp* :off) (defun lamp-on? () (eq *lamp* :on)))
+        LAMP-ON?
+        ? (to-achieve (lamp-on?)
+            ((eq *lamp* :off) (setf *lamp* :on)))
+        (LAMP-ON?)
+        ? (achieve (lamp-on?))
+        Attempting to achieve (LAMP-ON?)
+        (LAMP-ON?) achieved.
+        T
+
+    Source: ESL §3.
+    """
+    pattern = form.cdr.car
+    clauses = []
+    rest = form.cdr.cdr
+    while rest is not None:
+        clause = rest.car
+        if clause.__class__ is not Cons:
+            environment.analyser.fail(
+                "malformed-method",
+                "a method is a COND clause",
+                environment.analyser.spans.element(rest),
+                hint="write `(test form...)`",
+            )
+        clauses.append(Cons(clause.car, _then_true(clause.cdr)))
+        rest = rest.cdr
+    methods = lisp_list(LAMBDA, None, Cons(COND, from_items(clauses)))
+    return lisp_list(DEFINE_GOAL, lisp_list(QUOTE, pattern), methods)
+
+
+def _then_true(forms: Value) -> Value:
+    """FORMS, and T behind them, which says that a method was run."""
+    elements = []
+    while forms is not None:
+        elements.append(forms.car)
+        forms = forms.cdr
+    return from_items([*elements, T])
+
+
+@macro("(achieve condition)", ESL)
+def achieve(form: Cons, environment: Any) -> Value:
+    """Make CONDITION true, unless it is, by the first method whose test is true.
+
+    Returns: NIL if CONDITION was true already, T if it was made true.
+    Fails:   :no-applicable-method if there is no method, or no test is true;
+             :condition-not-achieved if CONDITION is still false afterwards;
+             both with the condition. And with whatever the method fails with.
+
+    Example:
+        ? (defun dark? () nil)
+        DARK?
+        ? (achieve (not (dark?)))
+        (NOT (DARK?)) achieved. (No action needed.)
+        NIL
+
+    Source: ESL §3; causes: language reference §3.
+    """
+    condition = form.cdr.car
+    test = lisp_list(LAMBDA, None, test_form(condition, environment))
+    return lisp_list(ACHIEVE, instance_form(condition, environment), test)
+
+
+@function("(%define-goal pattern methods)", ESL)
+def define_goal(pattern: Value, methods: Value) -> Value:
+    """Remember the methods of a condition."""
+    running.session.goals.define(pattern, methods)
+    return pattern
+
+
+@function("(%achieve condition test)", ESL)
+def achieve_function(condition: Value, test: Value) -> Value:
+    """Achieve CONDITION, which TEST tells."""
+    session = running.session
+    tell = session.hooks.tell
+    if test() is not None:
+        tell("goal", None, state="no-action", condition=condition)
+        return None
+    tell("goal", None, state="attempting", condition=condition)
+    bindings, methods = session.goals.find(condition)
+    if methods is None or not _ran(bindings, methods):
+        return failures.signal(Failure(NO_APPLICABLE_METHOD, condition), continuable=True)
+    if test() is None:
+        return failures.signal(Failure(CONDITION_NOT_ACHIEVED, condition), continuable=True)
+    tell("goal", None, state="achieved", condition=condition)
+    return T
+
+
+def _ran(bindings: dict[Symbol, Value], methods: Any) -> bool:
+    """Run METHODS under BINDINGS; true if one of them applied."""
+    dynamic = running.session.dynamic
+    saved, dynamic.logical = dynamic.logical, {**dynamic.logical, **bindings}
+    try:
+        return methods() is not None
+    except Exception as error:
+        failures.signal_error(error)
+        return False
+    finally:
+        dynamic.logical = saved
+
+
+@macro("(logical-binding variable)", ESL)
+def logical_binding(form: Cons, environment: Any) -> Value:
+    """Give what the logic variable VARIABLE is bound to; #?X is (logical-binding ?X).
+
+    Fails:   :unbound-variable if it is bound to nothing here.
+
+    Source: ESL §5.
+    """
+    return lisp_list(BINDING, lisp_list(QUOTE, form.cdr.car))
+
+
+@function("(%logical-binding variable)", ESL)
+def logical_binding_function(variable: Symbol) -> Value:
+    """Give what VARIABLE is bound to."""
+    bindings = running.session.dynamic.logical
+    if variable not in bindings:
+        raise unbound_variable(variable)
+    return bindings[variable]

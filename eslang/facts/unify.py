@@ -1,0 +1,91 @@
+"""Matching: patterns with logic variables against terms.
+
+A logic variable is a symbol whose name begins with ?; ?_ matches anything and
+is bound to nothing.
+"""
+
+from __future__ import annotations
+
+from eslang.base.lists import Cons
+from eslang.base.symbols import Keyword, Symbol, Value
+from eslang.base.text import String
+
+
+def is_variable(term: Value) -> bool:
+    """True if TERM is a logic variable."""
+    return isinstance(term, Symbol) and not isinstance(term, Keyword) and term.name.startswith("?") and len(term.name) > 1
+
+
+def same(left: Value, right: Value) -> bool:
+    """EQUAL, for atoms."""
+    if left is right:
+        return True
+    if left.__class__ is not right.__class__:
+        return False
+    if left.__class__ is String:
+        return bool(left.text == right.text)
+    kind = left.__class__.__name__
+    return kind in ("int", "float", "Ratio") and bool(left == right)
+
+
+def match(pattern: Value, term: Value) -> dict[Symbol, Value] | None:
+    """The bindings under which PATTERN is TERM; None if there are none."""
+    bindings: dict[Symbol, Value] = {}
+    pending = [(pattern, term)]
+    while pending:
+        pattern, term = pending.pop()
+        if is_variable(pattern):
+            if pattern.name == "?_":
+                continue
+            if pattern in bindings:
+                pending.append((bindings[pattern], term))
+            else:
+                bindings[pattern] = term
+        elif pattern.__class__ is Cons and term.__class__ is Cons:
+            pending += [(pattern.cdr, term.cdr), (pattern.car, term.car)]
+        elif not same(pattern, term):
+            return None
+    return bindings
+
+
+def is_same_pattern(left: Value, right: Value) -> bool:
+    """True if two patterns differ at most in the names of their variables."""
+    forth: dict[Symbol, Symbol] = {}
+    back: dict[Symbol, Symbol] = {}
+    pending = [(left, right)]
+    while pending:
+        left, right = pending.pop()
+        if is_variable(left) and is_variable(right):
+            if forth.setdefault(left, right) is not right or back.setdefault(right, left) is not left:
+                return False
+        elif left.__class__ is Cons and right.__class__ is Cons:
+            pending += [(left.cdr, right.cdr), (left.car, right.car)]
+        elif not same(left, right):
+            return False
+    return True
+
+
+class Patterns:
+    """Things remembered by pattern: what TO-ACHIEVE defined."""
+
+    def __init__(self) -> None:
+        self.entries: list[tuple[Value, Value]] = []
+
+    def define(self, pattern: Value, entry: Value) -> None:
+        """Remember ENTRY for PATTERN, in the place of what was remembered for the same one."""
+        for index, (known, _) in enumerate(self.entries):
+            if is_same_pattern(known, pattern):
+                self.entries[index] = (pattern, entry)
+                return
+        self.entries.append((pattern, entry))
+
+    def find(self, term: Value) -> tuple[dict[Symbol, Value], Value]:
+        """The first entry whose pattern TERM matches, one without variables before all; (…, None) if none."""
+        best: tuple[dict[Symbol, Value], Value] = ({}, None)
+        for pattern, entry in self.entries:
+            bindings = match(pattern, term)
+            if bindings is not None and (not bindings or best[1] is None):
+                best = (bindings, entry)
+                if not bindings:
+                    break
+        return best

@@ -1,0 +1,321 @@
+"""The interpreter: joins reader, compiler and runtime into one object to hold.
+
+This is the door for embedders (language reference §10) and what tools stand
+on. Everything an interpreter has hangs here: one image, one clock, one source
+of chance, one output, one set of listeners; two of them never meet.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar, overload
+
+from eslang import prelude
+from eslang.base.border import to_lisp, to_python
+from eslang.base.control import Stop
+from eslang.base.diagnostics import error_at
+from eslang.base.failure import UNBOUND_VARIABLE, Failure
+from eslang.base.image import PACKAGE, Image
+from eslang.base.many import values_list
+from eslang.base.resolve import resolve_in
+from eslang.base.running import running, to_function
+from eslang.base.spans import Source, Spans
+from eslang.base.symbols import Symbol, Value
+from eslang.compile.registry import DEFINITIONS, Definition
+from eslang.devices import widget
+from eslang.facts.unify import Patterns
+from eslang.lisp.streams import OutputStream
+from eslang.primitives import make_primitive
+from eslang.runtime.bindings import Bindings
+from eslang.runtime.chance import make_chance
+from eslang.runtime.clock import make_clock
+from eslang.runtime.failures import Causes, Dynamic, run_task, signal_error
+from eslang.runtime.hooks import Hooks, Listener
+from eslang.runtime.ticks import Ticks
+
+if TYPE_CHECKING:
+    from eslang.compile.toplevel import Compiler
+    from eslang.reader.reader import Reading
+
+F = TypeVar("F", bound=Callable[..., Any])
+DEEPEST = 400_000  # Python frames; what is deeper is a :stack-exhausted failure
+
+
+class Interpreter:
+    """One independent ESL system.
+
+    seed: of the source of chance. clock: "real", or "virtual", on which time
+    jumps. output: a text stream (default: standard output as it is at each
+    writing). listeners: callables that get Event objects.
+    """
+
+    def __init__(
+        self,
+        *,
+        seed: int = 0,
+        clock: str = "real",
+        output: Any = None,
+        listeners: Iterable[Listener] = (),
+    ) -> None:
+        self.image = Image()
+        self.seed = seed
+        self.clock = make_clock(clock)
+        self.chance = make_chance(seed)
+        self.output = OutputStream(output if output is not None else sys.stdout)
+        self.hooks = Hooks(self.clock.now)
+        self.bindings = Bindings(self.image)
+        self.dynamic = Dynamic()
+        self.causes = Causes()
+        self.goals = Patterns()
+        self.ticks = Ticks()
+        self.closed = False
+        self._library = True  # what is defined now is the library's
+        self._support: dict[str, Any] | None = None
+        sys.setrecursionlimit(max(sys.getrecursionlimit(), DEEPEST))
+        with self.at_work():
+            self._install()
+        self._library = False
+        self.hooks.listeners.extend(listeners)
+
+    # --- what is there from the start ------------------------------------------
+
+    def _install(self) -> None:
+        """Fill the image: the registered names, the prelude, the devices."""
+        prelude.import_rooms()
+        image = self.image
+        image.cell(PACKAGE).value = image.packages["COMMON-LISP"]
+        image.cell(PACKAGE).special = True
+        for definition in DEFINITIONS:
+            self._install_definition(definition)
+        for path in prelude.stdlib_files():
+            if path.exists():
+                self._load_source(Source(f"<stdlib>/{path.name}", path.read_text(encoding="utf-8")))
+        image.cell(PACKAGE).value = image.packages["ESL-USER"]
+        widget.install(self)
+
+    def _install_definition(self, definition: Definition) -> None:
+        symbol = self.image.packages[definition.package].intern(definition.name)
+        if symbol is None or definition.kind == "special form":
+            return
+        cell = self.image.cell(symbol)
+        made = definition.implementation
+        if definition.kind == "function":
+            if definition.many is not None:
+                made.many = definition.many
+            cell.function = made
+        elif definition.kind == "macro":
+            cell.macro = made
+        else:
+            cell.special = True
+            cell.constant = definition.kind == "constant"
+            cell.value = made() if callable(made) else made
+        if cell.definition is None or definition.kind != "variable":
+            cell.definition = definition
+        self.defined(symbol)
+
+    def defined(self, symbol: Symbol) -> None:
+        """Make a name that the library defined external, unless it begins with %."""
+        if self._library and not symbol.name.startswith("%") and symbol.package in ("COMMON-LISP", "ESL", "SCS"):
+            self.image.packages[symbol.package].export(symbol.name)
+
+    def compiler(self, name: str) -> Compiler:
+        """A compiler for one text; the first one brings the special forms along."""
+        from eslang.compile.toplevel import Compiler
+
+        if self._support is None:
+            self._install_special_forms()
+        assert self._support is not None
+        return Compiler(self.image, self._support, name)
+
+    def _install_special_forms(self) -> None:
+        from eslang.compile.support import SUPPORT
+
+        for definition in DEFINITIONS:
+            if definition.kind == "special form":
+                symbol = self.image.packages[definition.package].intern(definition.name)
+                if symbol is not None:
+                    self.image.special_forms[symbol] = definition
+                    if self.image.cell(symbol).definition is None:
+                        self.image.cell(symbol).definition = definition
+                    if not symbol.name.startswith("%"):
+                        self.image.packages[definition.package].export(symbol.name)
+        self._support = {
+            **SUPPORT,
+            "%bind": self.bindings.bind,
+            "%bind-all": self.bindings.bind_all,
+            "%unbind": self.bindings.unbind,
+            "%signal-error": signal_error,
+            "%ticks": self.ticks.ticks,
+        }
+
+    def is_special_form(self, symbol: Value) -> bool:
+        """True if SYMBOL names a special form."""
+        return any(
+            d.kind == "special form" and d.name == symbol.name and d.package == symbol.package for d in DEFINITIONS
+        )
+
+    # --- running ---------------------------------------------------------------
+
+    def at_work(self) -> AtWork:
+        """Inside it, this interpreter is the one that Lisp functions serve."""
+        return AtWork(self)
+
+    def readings(self, source: Source) -> Iterator[Reading]:
+        """The top-level forms of a source, each read with the package of the moment."""
+        from eslang.reader.reader import read_forms
+
+        return read_forms(source, resolve_in(self.image))
+
+    def evaluate(self, reading: Reading, compiler: Compiler | None = None) -> list[Value]:
+        """All the values of a top-level form. Raises Failure, or EslError for a wrong program."""
+        compiler = compiler or self.compiler(reading.span.source.name)
+        with self.at_work():
+            result = compiler.run(
+                reading.form,
+                reading.spans,
+                reading.span,
+                many=True,
+                run=lambda code: run_task(compiler.unit.load(code)),
+            )
+        return values_list(result)
+
+    def evaluate_form(self, form: Value, *, many: bool = False) -> Value:
+        """EVAL: the value of a form, within the task at work."""
+        compiler = self.compiler("<eval>")
+        return compiler.run(form, Spans(), None, many=many, run=lambda code: compiler.unit.load(code)())
+
+    def _load_source(self, source: Source) -> Value:
+        """Read, compile and run the forms of a source; the value of the last."""
+        compiler = self.compiler(source.name)
+        result: Value = None
+        for reading in self.readings(source):
+            result = compiler.run(
+                reading.form,
+                reading.spans,
+                reading.span,
+                run=lambda code: run_task(compiler.unit.load(code)),
+            )
+        return result
+
+    # --- the embedder's doors --------------------------------------------------
+
+    def load(self, path: str | Path) -> None:
+        """Load a file of forms. Raises Failure, EslError, OSError."""
+        from eslang.reader.reader import decode
+
+        self._check_open()
+        with self.at_work():
+            source = decode(Path(path).read_bytes(), str(path))
+            package = self.image.cell(PACKAGE).value
+            try:
+                self._load_source(source)
+            finally:
+                self.image.cell(PACKAGE).value = package
+
+    def eval(self, text: str, name: str = "<eval>") -> Any:
+        """The value of the last form in TEXT, as Python has it. Raises Failure, EslError."""
+        self._check_open()
+        with self.at_work():
+            return to_python(self._load_source(Source(name, text)))
+
+    def call(self, name: str | Symbol, *arguments: Any) -> Any:
+        """Call a function by name (or a function itself); runs until it ends. Raises Failure."""
+        self._check_open()
+        with self.at_work():
+            designator: Any = self.symbol(name) if isinstance(name, str) else name
+            values = [to_lisp(argument) for argument in arguments]
+            return to_python(run_task(lambda: to_function(designator)(*values)))
+
+    def symbol(self, text: str) -> Symbol | None:
+        """The symbol that TEXT names in the current package, as the reader would read it."""
+        package, mark, name = text.upper().rpartition(":")
+        resolve = resolve_in(self.image)
+        if not mark:
+            return resolve(None, name, False)
+        return resolve(package.rstrip(":") or "KEYWORD", name, False)
+
+    def value(self, name: str) -> Any:
+        """The value of a global variable, as Python has it. Raises Failure(:unbound-variable)."""
+        symbol = self.symbol(name)
+        try:
+            return to_python(self.image.cell(symbol).value)
+        except AttributeError:
+            raise Failure(UNBOUND_VARIABLE, symbol) from None
+
+    def set_value(self, name: str, value: Any) -> None:
+        """Give a global variable a value."""
+        self.image.cell(self.symbol(name)).value = to_lisp(value)
+
+    @overload
+    def primitive(self, function: F) -> F: ...
+
+    @overload
+    def primitive(self, *, name: str | None = ..., signature: str | None = ...) -> Callable[[F], F]: ...
+
+    def primitive(self, function: Any = None, *, name: str | None = None, signature: str | None = None) -> Any:
+        """Make a Python function a Lisp function; name and signature from Python's unless given.
+
+        Raising Failure in it is (fail ...); any other error is a :python-error failure.
+        """
+
+        def register(made: Any) -> Any:
+            definition = make_primitive(made, name, signature)
+            symbol = self.symbol(definition.name)
+            if symbol is None or symbol.package == "COMMON-LISP":
+                raise error_at("redefined-special-form", f"`{definition.name.lower()}` is Common Lisp's", None)
+            cell = self.image.cell(symbol)
+            definition.package = symbol.package or ""
+            cell.function, cell.definition, cell.macro = definition.implementation, definition, None
+            return made
+
+        return register if function is None else register(function)
+
+    def to_python(self, value: Value) -> Any:
+        """A Lisp value as Python has it."""
+        return to_python(value)
+
+    def to_lisp(self, value: Any) -> Value:
+        """A Python value as Lisp has it."""
+        return to_lisp(value)
+
+    def definition(self, symbol: Symbol) -> Definition | None:
+        """What is known of a name, for people: signature, documentation, place."""
+        self.compiler("<names>")
+        definition: Definition | None = self.image.cell(symbol).definition
+        return definition
+
+    def interrupt(self, reason: str = "interrupted", code: int = 130) -> None:
+        """Stop what runs, soon, with its cleanups; safe to call from a signal handler."""
+        self.ticks.stop(Stop(reason, code))
+
+    def _check_open(self) -> None:
+        if self.closed:
+            raise Failure("interpreter-closed")
+
+    def close(self) -> None:
+        """End this interpreter; nothing can be called on it afterwards."""
+        self.closed = True
+
+    def __enter__(self) -> Interpreter:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+
+class AtWork:
+    """Sets the interpreter at work, and sets back the one that was."""
+
+    __slots__ = ("before", "interpreter")
+
+    def __init__(self, interpreter: Interpreter) -> None:
+        self.interpreter = interpreter
+        self.before: Any = None
+
+    def __enter__(self) -> None:
+        self.before, running.session = running.session, self.interpreter
+
+    def __exit__(self, *error: object) -> None:
+        running.session = self.before

@@ -1,0 +1,43 @@
+"""What every interpreter begins with: the registered rooms, and stdlib/.
+
+The rooms register their functions and macros when they are imported; their
+special forms are wanted only when something is compiled.
+"""
+
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+
+LISP = (
+    "predicates types coercions conses alists trees sets mapping sequences sequences_search sequences_change "
+    "sequences_mapping sequences_sort hash_tables arrays vectors numbers numbers_division numbers_integers "
+    "numbers_reals characters strings symbols packages streams stream_input output format structures places "
+    "conditions defining control"
+).split()
+ROOMS = [
+    *(f"eslang.lisp.{name}" for name in LISP),
+    "eslang.constructs.esl.contingency",
+    "eslang.constructs.esl.conditions",
+    "eslang.constructs.esl.goals",
+    "eslang.constructs.esl.doubles",
+    "eslang.constructs.esl.documentation",
+]
+FILES = "control places loop structures packages conditions recovery testing widgets".split()
+
+
+def import_rooms() -> None:
+    """Import every room that registers something a plan can say."""
+    for name in ROOMS:
+        importlib.import_module(name)
+
+
+def stdlib_folder() -> Path:
+    """Where stdlib/ is: inside the package in a wheel, beside it in a checkout."""
+    inside = Path(__file__).parent / "stdlib"
+    return inside if inside.is_dir() else Path(__file__).parent.parent / "stdlib"
+
+
+def stdlib_files() -> list[Path]:
+    """The files of stdlib/, in the order in which they are loaded."""
+    return [stdlib_folder() / f"{name}.esl" for name in FILES]

@@ -1,0 +1,284 @@
+"""Failures: who answers them, and in which order (ESL §2).
+
+A FAIL calls a recovery procedure where it stands; nothing is unwound until
+the procedure jumps. The chain of active forms belongs to the running task.
+Python's errors become failures at the nearest edge of something that could be
+unwound (`signal_error`), so a procedure runs before anything is undone.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from eslang.base.control import Abort, Failed, Retry, Unwind
+from eslang.base.failure import (
+    CONTROL_ERROR,
+    DIVISION_BY_ZERO,
+    ERROR,
+    GENERAL_FAILURE,
+    INDEX_OUT_OF_RANGE,
+    PYTHON_ERROR,
+    STACK_EXHAUSTED,
+    TYPE_ERROR,
+    UNBOUND_VARIABLE,
+    UNDEFINED_FUNCTION,
+    WRONG_NUMBER_OF_ARGUMENTS,
+    Failure,
+    control_error,
+)
+from eslang.base.running import running
+from eslang.base.symbols import Value
+from eslang.runtime.errors import to_failure
+from eslang.runtime.story import Asked, Story, as_place, capture_stack
+
+HOST_CAUSES = (
+    TYPE_ERROR,
+    DIVISION_BY_ZERO,
+    UNBOUND_VARIABLE,
+    UNDEFINED_FUNCTION,
+    WRONG_NUMBER_OF_ARGUMENTS,
+    INDEX_OUT_OF_RANGE,
+    STACK_EXHAUSTED,
+    PYTHON_ERROR,
+    CONTROL_ERROR,
+)
+HEADROOM = 20_000  # frames that a procedure answering :stack-exhausted may use
+
+
+class Clause(NamedTuple):
+    """One recovery procedure: the cause it answers and how often it may be invoked."""
+
+    cause: Value
+    limit: int | None  # None: :infinite
+    procedure: Callable[..., Value]
+    place: Value  # a list, as the compiler noted it
+    takes: Callable[[Failure], bool] | None = None  # HANDLER-BIND's own test; such a clause declines by returning
+
+
+class Form:
+    """One entrance of a form that answers failures: its clauses, and how often each was used."""
+
+    __slots__ = ("clauses", "live", "outer", "used")
+
+    def __init__(self) -> None:
+        self.outer: Form | None = None
+        self.clauses: tuple[Clause, ...] = ()
+        self.used: list[int] = []
+        self.live = False
+
+
+class Dynamic:
+    """What the running task has on its stack for failures to meet."""
+
+    __slots__ = ("answering", "catches", "forms", "logical")
+
+    def __init__(self) -> None:
+        self.forms: Form | None = None
+        self.answering: list[Failure] = []  # innermost last
+        self.catches: list[tuple[Value, Any]] = []  # (tag, token), innermost last
+        self.logical: dict[Value, Value] = {}  # what logic variables are bound to
+
+
+class Causes:
+    """The hierarchy of causes: DEFINE-FAILURE gives a cause its parents."""
+
+    def __init__(self) -> None:
+        self.parents: dict[Value, tuple[Value, ...]] = {cause: (ERROR,) for cause in HOST_CAUSES}
+        self._ancestors: dict[Value, frozenset[Value]] = {}
+
+    def define(self, cause: Value, parents: tuple[Value, ...]) -> None:
+        """Put CAUSE under PARENTS."""
+        for parent in parents:
+            if parent is cause or cause in self.ancestors(parent):
+                raise control_error(f"the cause {cause} cannot be its own parent")
+        self.parents[cause] = parents
+        self._ancestors.clear()
+
+    def ancestors(self, cause: Value) -> frozenset[Value]:
+        """CAUSE and all that it is a kind of."""
+        known = self._ancestors.get(cause)
+        if known is None:
+            found = {cause}
+            for parent in self.parents.get(cause, ()):
+                found |= self.ancestors(parent)
+            known = self._ancestors[cause] = frozenset(found)
+        return known
+
+    def answers(self, wanted: Value, cause: Value) -> bool:
+        """True if a clause for WANTED takes a failure of CAUSE."""
+        return wanted is cause or wanted is GENERAL_FAILURE or wanted in self.ancestors(cause)
+
+
+def fail(cause: Value, *arguments: Value) -> Value:
+    """Fail; the value is that of the recovery procedure that answers, if it runs off its end."""
+    return signal(Failure(cause, *arguments), continuable=True)
+
+
+def signal(failure: Failure, *, continuable: bool) -> Value:
+    """Call the active recovery procedures for FAILURE, from the innermost form outward."""
+    session = running.session
+    dynamic: Dynamic = session.dynamic
+    hooks = session.hooks
+    innermost = form = dynamic.forms
+    start = 0
+    while form is not None:
+        index = _clause_for(form, failure, session.causes, start)
+        if index is None:
+            form, start = form.outer, 0
+            continue
+        clause = form.clauses[index]
+        if clause.takes is not None:
+            _call(dynamic, form, clause, failure)
+            start = index + 1
+            continue
+        form.used[index] += 1
+        if hooks.listeners:
+            left = None if clause.limit is None else clause.limit - form.used[index]
+            hooks.tell("recovery", as_place(clause.place), failure=failure, left=left)
+        value = _call(dynamic, form, clause, failure)
+        if continuable:
+            return value
+        form, start = form.outer, 0
+    failure.story = tell_story(failure, innermost, session.causes)
+    if hooks.listeners:
+        hooks.tell("failure", failure.story.place, failure=failure)
+    raise Failed(failure)
+
+
+def _clause_for(form: Form, failure: Failure, causes: Causes, start: int) -> int | None:
+    """The number of the first clause of FORM, from START on, for FAILURE that may still be invoked."""
+    for index in range(start, len(form.clauses)):
+        clause = form.clauses[index]
+        if clause.takes is not None:
+            if clause.takes(failure):
+                return index
+        elif (clause.limit is None or form.used[index] < clause.limit) and causes.answers(
+            clause.cause, failure.cause
+        ):
+            return index
+    return None
+
+
+def _call(dynamic: Dynamic, form: Form, clause: Clause, failure: Failure) -> Value:
+    """Call a recovery procedure, with the chain set back to its own form."""
+    saved = dynamic.forms
+    dynamic.forms = form.outer if clause.takes is not None else form
+    dynamic.answering.append(failure)
+    exhausted = failure.cause is STACK_EXHAUSTED
+    if exhausted:
+        sys.setrecursionlimit(sys.getrecursionlimit() + HEADROOM)
+    try:
+        if clause.takes is not None:
+            return clause.procedure(failure)
+        return clause.procedure(*failure.arguments)
+    except Unwind as jump:
+        jump.failed = True
+        raise
+    finally:
+        if exhausted:
+            sys.setrecursionlimit(sys.getrecursionlimit() - HEADROOM)
+        dynamic.answering.pop()
+        dynamic.forms = saved
+
+
+def signal_error(error: Exception) -> None:
+    """Signal a Python error that left Lisp code; it has no place to continue."""
+    failure = error if error.__class__ is Failure else to_failure(error)
+    signal(failure, continuable=False)  # type: ignore[arg-type]
+
+
+# --- forms ---------------------------------------------------------------------------
+
+
+def run_form(form: Form, clauses: tuple[Clause, ...], body: Callable[[], Value]) -> Value:
+    """Run BODY while CLAUSES answer its failures; again after each (retry)."""
+    dynamic: Dynamic = running.session.dynamic
+    outer = form.outer = dynamic.forms
+    form.clauses = clauses
+    form.used = [0] * len(clauses)
+    form.live = True
+    try:
+        while True:
+            dynamic.forms = form
+            try:
+                return _guarded(body)
+            except Retry as jump:
+                if jump.target is not form:
+                    raise
+            except Abort as jump:
+                if jump.target is not form:
+                    raise
+                return jump.value
+    finally:
+        form.live = False
+        dynamic.forms = outer
+
+
+def _guarded(body: Callable[[], Value]) -> Value:
+    """The value of BODY; a Python error becomes a failure at this edge."""
+    try:
+        return body()
+    except Exception as error:
+        return signal_error(error)
+
+
+def retry(form: Form) -> None:
+    """Jump to the start of the body of FORM."""
+    if not form.live:
+        raise control_error("this RETRY belongs to a form that has been left")
+    raise Retry(form)
+
+
+def abort(form: Form, result: Value) -> None:
+    """Return RESULT from FORM."""
+    if not form.live:
+        raise control_error("this ABORT belongs to a form that has been left")
+    raise Abort(form, result)
+
+
+def run_with_cleanup(body: Callable[[], Value], cleanup: Callable[[], Value]) -> Value:
+    """Run BODY; if it is left because it failed, run CLEANUP on the way out."""
+    dynamic: Dynamic = running.session.dynamic
+    outer = dynamic.forms
+    try:
+        return _guarded(body)
+    except Unwind as jump:
+        if jump.failed:
+            dynamic.forms = outer
+            _guarded(cleanup)
+        raise
+
+
+def run_task(body: Callable[[], Value]) -> Value:
+    """Run BODY as a task of its own: what nothing answers is raised as the Failure it is."""
+    dynamic: Dynamic = running.session.dynamic
+    saved, dynamic.forms = dynamic.forms, None
+    catches, dynamic.catches = dynamic.catches, []
+    try:
+        return _guarded(body)
+    except Failed as jump:
+        failure = jump.value
+    finally:
+        dynamic.forms, dynamic.catches = saved, catches
+    hooks = running.session.hooks
+    if hooks.listeners:
+        hooks.tell("aborted", None, failure=failure)
+    raise failure
+
+
+# --- telling -------------------------------------------------------------------------
+
+
+def tell_story(failure: Failure, innermost: Form | None, causes: Causes) -> Story:
+    """Where FAILURE came about, and who was asked."""
+    asked: list[Asked] = []
+    form = innermost
+    while form is not None:
+        for clause, used in zip(form.clauses, form.used, strict=True):
+            takes = clause.takes is None and causes.answers(clause.cause, failure.cause)
+            left = None if clause.limit is None else clause.limit - used
+            asked.append(Asked(clause.cause, as_place(clause.place), takes, used, left))
+        form = form.outer
+    return Story(tuple(asked), capture_stack(failure))

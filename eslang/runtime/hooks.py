@@ -1,0 +1,39 @@
+"""What the kernel tells whoever asks.
+
+The kernel prints nothing. A listener is a callable that gets Event objects;
+where nobody listens, nothing is made and nothing is paid.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+
+class Event(NamedTuple):
+    """Something that happened: its kind, when, in which task, at which form, and more."""
+
+    kind: str
+    time: float
+    task: Any
+    form: Any  # where in the source: a Place, or None
+    data: dict[str, Any]
+
+
+Listener = Callable[[Event], object]
+
+
+class Hooks:
+    """The listeners of one interpreter."""
+
+    __slots__ = ("listeners", "now")
+
+    def __init__(self, now: Callable[[], float]) -> None:
+        self.listeners: list[Listener] = []
+        self.now = now
+
+    def tell(self, kind: str, form: Any = None, task: Any = None, **data: Any) -> None:
+        """Tell every listener. Callers ask `if hooks.listeners` first where it must cost nothing."""
+        event = Event(kind, self.now(), task, form, data)
+        for listener in list(self.listeners):
+            listener(event)

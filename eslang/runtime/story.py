@@ -1,0 +1,107 @@
+"""Where something happened, for people: places and the Lisp stack.
+
+Compiled functions are ordinary Python code with Lisp lines, so the stack is
+read from Python's frames; frames of ours that no plan wrote are left out.
+"""
+
+from __future__ import annotations
+
+import sys
+from itertools import islice
+from types import CodeType, FrameType, TracebackType
+from typing import NamedTuple
+
+from eslang.base.symbols import Value
+
+DEEPEST = 200  # frames that a story tells
+
+
+class Place(NamedTuple):
+    """A place in a source: what file:line:column names, both ends."""
+
+    file: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+def as_place(noted: Value) -> Place | None:
+    """The place that the compiler noted as a list (file line column end-line end-column)."""
+    if noted is None:
+        return None
+    file, *numbers = noted
+    return Place(file.text, *numbers)
+
+
+class Frame(NamedTuple):
+    """One function on the Lisp stack, and where in it the plan stood."""
+
+    name: str
+    place: Place
+
+
+class Asked(NamedTuple):
+    """A recovery procedure that was active: whether it takes the cause, and what it had left."""
+
+    cause: Value
+    place: Place | None
+    takes: bool
+    used: int
+    left: int | None  # None: :infinite
+
+
+class Story(NamedTuple):
+    """What is known of a failure: who was asked, and the stack, innermost first."""
+
+    asked: tuple[Asked, ...]
+    stack: tuple[Frame, ...]
+
+    @property
+    def place(self) -> Place | None:
+        """Where it was raised."""
+        return self.stack[0].place if self.stack else None
+
+
+def is_lisp(frame: FrameType) -> bool:
+    """True if FRAME runs code compiled from Lisp text that a person wrote."""
+    return "%many" in frame.f_globals and not frame.f_code.co_filename.startswith("<stdlib>")
+
+
+def place_of(code: CodeType, instruction: int) -> Place | None:
+    """The place of one instruction of CODE."""
+    found = next(islice(code.co_positions(), instruction // 2, None), None)
+    if found is None or found[0] is None:
+        return None
+    line, end_line, column, end_column = found
+    return Place(code.co_filename, line or 0, (column or 0) + 1, end_line or 0, (end_column or 0) + 1)
+
+
+def capture_stack(error: BaseException | None = None) -> tuple[Frame, ...]:
+    """The Lisp stack: the frames ERROR has come through already, then those still running."""
+    found: list[Frame] = []
+    trace: TracebackType | None = error.__traceback__ if error is not None else None
+    passed: list[tuple[FrameType, int]] = []
+    while trace is not None:
+        passed.append((trace.tb_frame, trace.tb_lasti))
+        trace = trace.tb_next
+    for frame, instruction in reversed(passed[-DEEPEST:]):
+        _note(found, frame, instruction)
+    outermost = passed[0][0] if passed else None
+    running: FrameType | None = sys._getframe(1)
+    seen = {id(outermost)} if outermost is not None else set()
+    while running is not None and len(found) < DEEPEST:
+        if id(running) not in seen:
+            _note(found, running, running.f_lasti)
+        running = running.f_back
+    return tuple(found)
+
+
+def _note(found: list[Frame], frame: FrameType, instruction: int) -> None:
+    if is_lisp(frame):
+        place = place_of(frame.f_code, instruction)
+        if place is not None:
+            found.append(Frame(frame.f_code.co_name, place))

@@ -1,0 +1,58 @@
+"""Ticks: how a loop that waits for nothing stays within reach.
+
+Every round of every loop draws one tick. They come in slices, counted in C;
+between two slices the task passes a safepoint, where a pending stop is obeyed.
+A program that calls functions without ever looping is stopped at its next
+call instead, by a profiler hook that is in place only while a stop is pending.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator
+from itertools import chain, repeat
+from types import FrameType
+from typing import Any
+
+from eslang.base.control import Stop
+
+SLICE = 1000  # rounds between two safepoints
+
+
+class Ticks:
+    """The safepoints of one interpreter."""
+
+    def __init__(self) -> None:
+        self.pending: Stop | None = None
+        self._source: Iterator[None] = self._make()
+
+    def _make(self) -> Iterator[None]:
+        return chain.from_iterable(iter(self._slice, None))
+
+    def _slice(self) -> Iterable[None]:
+        self.safepoint()
+        return repeat(None, SLICE)
+
+    def ticks(self) -> Iterator[None]:
+        """What a compiled loop iterates over."""
+        return self._source
+
+    def safepoint(self) -> None:
+        """Obey a pending stop."""
+        if self.pending is not None:
+            stop, self.pending = self.pending, None
+            sys.setprofile(None)
+            self._source = self._make()
+            raise stop
+
+    def stop(self, stop: Stop) -> None:
+        """Stop what runs, soon; safe to call from a signal handler."""
+        self.pending = stop
+        self._source = self._make()
+        sys.setprofile(self._at_call)
+
+    def _at_call(self, frame: FrameType, event: str, argument: Any) -> None:
+        if event == "call" and "%many" in frame.f_globals:
+            self.safepoint()
+
+
