@@ -149,6 +149,14 @@ def nthcdr(n: Value, lst: Value) -> Value:
 @function("(nth n list)")
 def nth(n: Value, lst: Value) -> Value:
     """Return element N of LIST, counted from 0; NIL beyond the end."""
+    if n.__class__ is int and n >= 0:
+        rest = lst
+        try:
+            for _ in range(n):
+                rest = rest.cdr
+            return rest.car
+        except AttributeError:
+            pass  # step by step, then
     return car(nthcdr(check_index(n, "NTH"), lst))
 
 

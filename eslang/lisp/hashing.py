@@ -65,10 +65,16 @@ def _flat_key(value: Value, take: Callable[[Value, list[Any], list[Value]], None
     pending = [value]
     while pending:
         value = pending.pop()
+        while value.__class__ is Cons and value.car.__class__ in PLAIN:
+            tokens.append(_PAIR)
+            tokens.append(value.car)
+            value = value.cdr
         if value.__class__ is Cons:
             tokens.append(_PAIR)
             pending.append(value.cdr)
             pending.append(value.car)
+        elif value.__class__ in PLAIN:
+            tokens.append(value)
         else:
             take(value, tokens, pending)
     return tuple(tokens) if len(tokens) > 1 else tokens[0]

@@ -51,6 +51,8 @@ def judge_item(item: Value, test: Value, test_not: Value, key: Value) -> tuple[J
 def _same_as(item: Value) -> Judge:
     if item is None or isinstance(item, Symbol):
         return lambda element: T if element is item else None
+    if item.__class__ is int:
+        return lambda element: T if element.__class__ is int and element == item else None
     return lambda element: T if is_eql(item, element) else None
 
 

@@ -51,14 +51,20 @@ def _merge(values: list[Value], left: list[int], right: list[int], precedes: Any
         return left + right
     merged = []
     i = j = 0
-    while i < len(left) and j < len(right):
-        if precedes(values[right[j]], values[left[i]]) is not None:
+    x, y = values[left[0]], values[right[0]]
+    while True:
+        if precedes(y, x) is not None:
             merged.append(right[j])
             j += 1
+            if j == len(right):
+                return merged + left[i:]
+            y = values[right[j]]
         else:
             merged.append(left[i])
             i += 1
-    return merged + left[i:] + right[j:]
+            if i == len(left):
+                return merged + right[j:]
+            x = values[left[i]]
 
 
 @function("(stable-sort sequence predicate &key key)")
