@@ -85,6 +85,7 @@ def let(analyser: Analyser, form: Cons, scope: Scope) -> Node:
             dynamic.append((symbol, value))
         else:  # computed in its turn, bound after all the others are computed
             waiting = analyser.unnamed_variable(symbol, inner)
+            waiting.mentioned = True
             lexical.append((waiting, value))
             dynamic.append((symbol, Local(analyser.span, waiting)))
     for symbol, _ in dynamic:
@@ -179,6 +180,7 @@ def multiple_value_bind(analyser: Analyser, form: Cons, scope: Scope) -> Node:
             analyser.fail("malformed-binding", f"`{prin1(symbol)}` is no variable", analyser.spans.element(rest))
         if is_special(analyser, symbol, specials):
             waiting = analyser.unnamed_variable(symbol, inner)
+            waiting.mentioned = True
             dynamic.append((symbol, Local(analyser.span, waiting)))
             inner.variables[symbol] = SPECIAL
             variables.append(waiting)
