@@ -83,8 +83,15 @@ class ExpressionEmitter(Builder):
 
     def call_function(self, name: str, arguments: list[ast.expr]) -> ast.expr:
         """A call of the standard function NAME, by its cell."""
-        cell = self.unit.cell(Symbol.intern(name, "COMMON-LISP"))
-        return self.call(self.attribute(self.name(cell), "function"), arguments)
+        return self.call_for(self.function_of(Symbol.intern(name, "COMMON-LISP")), arguments, False)
+
+    def function_of(self, symbol: Symbol) -> ast.expr:
+        """The global function of SYMBOL, to be called.
+
+        It is named on the way, since Python would make a method call of
+        `cell.function(...)`: slower on 3.11, and its error does not tell the cell.
+        """
+        return self.name_it("%f", self.attribute(self.name(self.unit.cell(symbol)), "function"))
 
     # --- what the other half of the emitter does --------------------------------
 
@@ -208,8 +215,7 @@ class ExpressionEmitter(Builder):
 
     def value_call(self, node: core.Call, many: bool) -> ast.expr:
         arguments = self.values(node.arguments)
-        function = self.attribute(self.name(self.unit.cell(node.symbol)), "function")
-        return self.call_for(function, arguments, many)
+        return self.call_for(self.function_of(node.symbol), arguments, many)
 
     def call_for(self, function: ast.expr, arguments: list[ast.expr], many: bool) -> ast.expr:
         """A call for one value or for all."""

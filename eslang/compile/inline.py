@@ -141,7 +141,8 @@ def _by_identity(nodes: list[Node]) -> bool:
 def _sameness(name: str, support: str) -> None:
     @_inline(name, 2, 2, TRUTH)
     def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
-        if _by_identity(nodes):
+        literal = any(isinstance(a, ast.Constant) and a.value is not None for a in arguments)
+        if _by_identity(nodes) and not literal:
             return e.is_(arguments[0], arguments[1])
         return e.call_support(support, *arguments)
 

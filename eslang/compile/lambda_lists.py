@@ -11,20 +11,8 @@ from dataclasses import dataclass, field
 
 from eslang.base.lists import Cons
 from eslang.base.symbols import Keyword, Symbol, Value
+from eslang.compile.lambda_list_words import ALLOW, AUX, BODY, ENVIRONMENT, KEY, OPTIONAL, REST, WHOLE
 
-OPTIONAL, REST, BODY, KEY, AUX, ALLOW, WHOLE, ENVIRONMENT = (
-    Symbol.intern(name, "COMMON-LISP")
-    for name in (
-        "&OPTIONAL",
-        "&REST",
-        "&BODY",
-        "&KEY",
-        "&AUX",
-        "&ALLOW-OTHER-KEYS",
-        "&WHOLE",
-        "&ENVIRONMENT",
-    )
-)
 _ORDER = {OPTIONAL: 1, REST: 2, BODY: 2, KEY: 3, ALLOW: 4, AUX: 5}
 
 

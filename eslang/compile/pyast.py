@@ -71,9 +71,13 @@ class Builder:
         return self.compare(left, ast.Is(), right)
 
     def is_nil(self, value: ast.expr) -> ast.expr:
+        if isinstance(value, ast.Constant):
+            return self.constant(value.value is None)
         return self.compare(value, ast.Is(), self.constant(None))
 
     def is_true(self, value: ast.expr) -> ast.expr:
+        if isinstance(value, ast.Constant):
+            return self.constant(value.value is not None)
         return self.compare(value, ast.IsNot(), self.constant(None))
 
     def operate(self, left: ast.expr, operator: ast.operator, right: ast.expr) -> ast.expr:

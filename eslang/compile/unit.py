@@ -9,6 +9,7 @@ the function at hand when it is first wanted (many_of).
 from __future__ import annotations
 
 import ast
+import warnings
 from types import CodeType, FunctionType
 from typing import Any
 
@@ -107,7 +108,9 @@ class Unit:
 
     def extract(self, body: list[ast.stmt], name: str) -> CodeType:
         """Compile definitions, and take out the code of the one called NAME."""
-        module = compile(ast.Module(body, []), self.name, "exec", dont_inherit=True)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SyntaxWarning)  # Python's opinions on literals
+            module = compile(ast.Module(body, []), self.name, "exec", dont_inherit=True)
         return self.finished(find_code(module, name))
 
     def finished(self, code: CodeType) -> CodeType:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from eslang.base.control import Exit, Throw
 from eslang.base.failure import control_error, simple_error, type_error
-from eslang.base.lists import Cons, items
+from eslang.base.lists import Cons, from_items, items
 from eslang.base.many import Values, many_of, pack, primary
 from eslang.base.running import running, to_function
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.base.text import Vector
-from eslang.compile.registry import function
+from eslang.compile.lambda_list_words import MARKERS
+from eslang.compile.registry import function, variable
 from eslang.compile.support import LISP_SUPPORT, reenter, spread
 from eslang.runtime.failures import signal_error
 
@@ -185,3 +186,8 @@ def list_to_vector(lst: Value) -> Value:
 for _name, _implementation in LISP_SUPPORT.items():
     function(f"({_name.lower()} &rest arguments)")(_implementation)
 
+
+variable("lambda-list-keywords", from_items(MARKERS), "The markers that a lambda list may contain.", constant=True)
+variable("call-arguments-limit", 2**31, "No call has as many arguments.", constant=True)
+variable("lambda-parameters-limit", 2**31, "No function has as many parameters.", constant=True)
+variable("multiple-values-limit", 2**31, "No form gives as many values.", constant=True)

@@ -198,7 +198,7 @@ def _matched(values: list[Value], agrees: Agreement, from_end: bool, first: int)
     places = []
     for place in range(len(values)):
         for other in range(place) if from_end else range(place + 1, len(values)):
-            if agrees(values[min(place, other)], values[max(place, other)]):
+            if agrees(values[place], values[other]):
                 places.append(first + place)
                 break
     return places

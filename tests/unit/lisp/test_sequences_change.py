@@ -102,7 +102,7 @@ def test_of_equal_elements_the_last_stays_or_the_first(kind: str, text: str) -> 
 def test_duplicates_by_test_and_key() -> None:
     assert call("remove-duplicates", "aAbB", test=fn("char-equal")) == "AB"
     assert call("remove-duplicates", [1, 2, 3, 4], test=fn("<")) == [4]
-    assert call("remove-duplicates", [1, 2, 3, 4], test=fn("<"), from_end=True) == [1]
+    assert call("remove-duplicates", [1, 2, 3, 4], test=fn(">"), from_end=True) == [1]
     assert call("remove-duplicates", [[1, "a"], [1, "b"]], key=fn("car")) == [[1, "b"]]
     assert call("remove-duplicates", [1, 1, 2, 1], start=1) == [1, 2, 1]
 
