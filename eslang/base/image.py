@@ -13,6 +13,7 @@ from collections.abc import Callable
 
 from eslang.base.packages import Package
 from eslang.base.symbols import Keyword, Symbol, Value
+from eslang.base.words import STANDARD_WORDS
 
 Function = Callable[..., Value]
 
@@ -66,7 +67,8 @@ class Image:
         cl, esl, scs = (self.packages[name] for name in ("CL", "ESL", "SCS"))
         cl.present["NIL"] = None  # type: ignore[assignment]
         cl.external.add("NIL")
-        cl.export("T")
+        for name in ("T", *STANDARD_WORDS):
+            cl.export(name)
         for name in ("ASSERT", "SIGNAL", "ABORT"):
             esl.shadow(name)
             esl.export(name)

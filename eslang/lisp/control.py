@@ -114,6 +114,12 @@ def special_operator_p(name: Value) -> Value:
     return truth(running.session.is_special_form(name))
 
 
+@function("(identity object)")
+def identity(value: Value) -> Value:
+    """Return OBJECT."""
+    return value
+
+
 @function("(constantly value)")
 def constantly(value: Value) -> Value:
     """Give a function that takes any arguments and returns VALUE."""
