@@ -23,7 +23,7 @@ ROOMS = [
     "eslang.constructs.esl.doubles",
     "eslang.constructs.esl.documentation",
 ]
-FILES = "control places loop packages structures conditions widgets".split()
+FILES = "control places loop packages structures conditions widgets recovery testing".split()
 
 
 def import_rooms() -> None:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from eslang.base.symbols import Value
 
-DEEPEST = 200  # frames that a story tells
+DEEPEST = 50  # frames that a story tells
 
 
 class Place(NamedTuple):

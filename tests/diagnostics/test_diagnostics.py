@@ -2,7 +2,7 @@
 
 `NAME.esl`, or `NAME-and-something-more.esl`, is wrong; `NAME.expected` is what
 is said of it. What lies in reader/ is only read; what lies in any other folder
-is checked, and run if the check finds nothing.
+is loaded, and checked if the loading finds nothing.
 """
 
 from __future__ import annotations
@@ -43,18 +43,21 @@ def read_only(path: Path) -> Iterator[Diagnostic]:
         yield error.diagnostic
 
 
-def check_and_run(path: Path) -> Iterator[Diagnostic]:
-    """What `esl check` finds, or if that is nothing, the mistake that shows when it runs."""
+def load_or_check(path: Path) -> Iterator[Diagnostic]:
+    """The mistake that shows when PATH is loaded, or what `esl check` finds without that."""
+    from eslang.base.failure import Failure
     from eslang.interpreter import Interpreter
 
     with Interpreter(clock="virtual", output=StringIO()) as interp:
-        found = list(interp.check(path.name))
-        yield from found
-        if not found:
-            try:
-                interp.load(path.name)
-            except EslError as error:
-                yield error.diagnostic
+        try:
+            interp.load(path.name)
+        except EslError as error:
+            yield error.diagnostic
+            return
+        except Failure:
+            pass
+    with Interpreter(clock="virtual", output=StringIO()) as interp:
+        yield from interp.check(path.name)
 
 
 def name_of(path: Path) -> str:
@@ -66,7 +69,7 @@ def name_of(path: Path) -> str:
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
 def test_what_is_said_of(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(path.parent)
-    found = list(read_only(path) if path.parent.name == "reader" else check_and_run(path))
+    found = list(read_only(path) if path.parent.name == "reader" else load_or_check(path))
     said = "\n".join([render(diagnostic) for diagnostic in found]) + "\n"
     assert said == path.with_suffix(".expected").read_text(encoding="utf-8")
     assert name_of(path) in [diagnostic.name for diagnostic in found]
