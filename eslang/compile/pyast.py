@@ -143,7 +143,7 @@ class Builder:
     def ticking(self, body: list[ast.stmt]) -> ast.stmt:
         """An endless loop whose rounds count as steps: `for _ in %ticks():`."""
         target = ast.Name("%round", STORE, **self.at)
-        return ast.For(target, self.call_support("%ticks"), body, [], **self.at)
+        return ast.For(target, self.call_support("%ticks"), body or [self.pass_()], [], **self.at)
 
     def try_(
         self, body: list[ast.stmt], handlers: list[ast.ExceptHandler], final: list[ast.stmt] | None = None
