@@ -12,7 +12,7 @@ from pathlib import Path
 LISP = (
     "predicates types coercions conses alists trees sets mapping sequences sequences_search sequences_change "
     "sequences_mapping sequences_sort hash_tables arrays vectors numbers numbers_division numbers_integers "
-    "numbers_reals characters strings symbols packages streams stream_input output format structures places "
+    "numbers_reals characters strings symbols packages streams stream_input output format reading structures places "
     "conditions defining control"
 ).split()
 ROOMS = [
