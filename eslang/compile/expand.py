@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from eslang.base.control import Failed
 from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
 from eslang.base.image import Image
@@ -23,7 +24,8 @@ def expand_macro(form: Cons, expander: Any, scope: Scope, analyser: Analyser) ->
         return expander(form, scope)
     except EslError:
         raise
-    except Failure as failure:
+    except (Failure, Failed) as failed:
+        failure = failed.value if isinstance(failed, Failed) else failed
         analyser.fail(
             "macro-failed",
             f"expanding `{prin1(form.car).lower()}` failed: {failure_text(failure)}",

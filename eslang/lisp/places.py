@@ -7,7 +7,7 @@ then the new value. The macros themselves are Lisp.
 
 from __future__ import annotations
 
-from eslang.base.failure import TYPE_ERROR, Failure, type_error
+from eslang.base.failure import TYPE_ERROR, Failure, simple_error, type_error
 from eslang.base.lists import Cons
 from eslang.base.many import pack
 from eslang.base.running import running
@@ -93,3 +93,19 @@ def wrong_type(datum: Value, expected: Value, operator: Value) -> Value:
     Fails: with :type-error.
     """
     raise Failure(TYPE_ERROR, datum, expected, operator)
+
+
+@function("(%mistake control &rest arguments)")
+def mistake(control: Value, *arguments: Value) -> Value:
+    """Fail, in a macro's expander: the form at hand is wrong. CONTROL and ARGUMENTS are FORMAT's.
+
+    Raised and not signalled, so no recovery procedure hears of it: it is the
+    program's author who does.
+
+    Fails: with :error.
+    """
+    form = running.session.image.cell(FORMAT).function
+    raise simple_error(str(form(None, control, *arguments)))
+
+
+FORMAT = Symbol.intern("FORMAT", "COMMON-LISP")

@@ -29,7 +29,7 @@ class StructureType(Datum):
         self.name = name
         self.slots = slots  # a list of (name default read-only accessor), inherited ones first
         self.ancestors: tuple[StructureType, ...] = (*parent.ancestors, parent) if parent is not None else ()
-        self.printer: Any = None  # (structure, stream) -> anything
+        self.printer: Any = None  # (structure, stream, escape) -> anything
 
     def __call__(self, value: Value) -> bool:
         return value.__class__ is Structure and (value.type is self or self in value.type.ancestors)
@@ -53,7 +53,7 @@ class Structure(Datum):
         printer = self.printer()
         if printer is not None:
             stream = StringOutputStream()
-            printer(self, stream)
+            printer(self, stream, truth(settings.escape))
             return stream.take()
         if settings.level is not None and settings.depth >= settings.level:
             return "#"
