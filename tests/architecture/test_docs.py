@@ -84,7 +84,9 @@ def test_who_waits_or_fails_says_so_in_its_part() -> None:
 
 
 def test_no_name_is_registered_twice() -> None:
-    seen = [(each.package, each.name, each.kind == "variable") for each in NAMES]
+    # A name may be a special form and a function too: VALUES is open-coded where it is called.
+    group = {"macro": "function", "constant": "variable"}
+    seen = [(each.package, each.name, group.get(each.kind, each.kind)) for each in NAMES]
     assert [name for name in set(seen) if seen.count(name) > 1] == []
 
 

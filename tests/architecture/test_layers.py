@@ -25,6 +25,7 @@ FLOORS = {
 CIRCLES = {
     ("eslang.base.symbols", "eslang.base.failure"): "a datum that refuses arithmetic says so as a failure",
     ("eslang.base.lists", "eslang.base.printer"): "a list's text is how it prints",
+    ("eslang.base.failure", "eslang.base.failure_text"): "a failure's text is how it prints",
     ("eslang.base.diagnostics", "eslang.base.render"): "an error's text is its layout",
 }
 NAMES = {module.name for module in MODULES}
