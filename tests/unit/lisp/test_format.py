@@ -21,7 +21,10 @@ def test_nil_returns_a_string(form: str, value: str) -> None:
     ("form", "value"),
     [
         (
-            '(let ((s (make-string-output-stream))) (list (format s "~a~%" 1) (get-output-stream-string s)))',
+            (
+                '(let ((s (make-string-output-stream))) (list (format s "~a~%" 1) '
+                "(get-output-stream-string s)))"
+            ),
             '(NIL "1\n")',
         ),
     ],
@@ -34,8 +37,10 @@ def test_a_stream_takes_the_text(form: str, value: str) -> None:
     ("form", "value"),
     [
         (
-            '(let ((s (make-string-output-stream))) (write-string "abc" s) (format s "~&x~5Ty") '
-            "(get-output-stream-string s))",
+            (
+                '(let ((s (make-string-output-stream))) (write-string "abc" s) (format s "~&x~5Ty") '
+                "(get-output-stream-string s))"
+            ),
             '"abc\nx    y"',
         ),
     ],

@@ -45,10 +45,12 @@ def test_prin1_and_princ_to_string(form: str, value: str) -> None:
     ("form", "value"),
     [
         (
-            '(let ((s (make-string-output-stream))) (list (print 1 s) (prin1 "a" s) (princ "b" '
-            's) (terpri s) (fresh-line s) (write-string "hello" s :start 1 :end 3) (fresh-line '
-            r's) (write-line "x" s) (write-char #\y s) (pprint 1 s) (write 5 :stream s :base 2) '
-            "(get-output-stream-string s)))",
+            (
+                '(let ((s (make-string-output-stream))) (list (print 1 s) (prin1 "a" s) (princ "b" '
+                's) (terpri s) (fresh-line s) (write-string "hello" s :start 1 :end 3) (fresh-line '
+                r's) (write-line "x" s) (write-char #\y s) (pprint 1 s) (write 5 :stream s :base 2) '
+                "(get-output-stream-string s)))"
+            ),
             '(1 "a" "b" NIL NIL "hello" T "x" #\\y NIL 5 "\n1 \\"a\\"b\nel\nx\ny\n1101")',
         ),
     ],

@@ -51,9 +51,11 @@ def test_wrong_text_is_a_failure(form: str, value: str) -> None:
     ("form", "value"),
     [
         (
-            '(let ((s (make-string-input-stream "a (b c) \'d"))) (list (read s) (read-char s) '
-            "(read s) (read s nil :end) (read s nil :end)))",
-            "failure :ERROR",
+            (
+                '(let ((s (make-string-input-stream "a b (c) \'d"))) (list (read s) (read-char s) '
+                "(read s) (read s nil :end) (read s nil :end)))"
+            ),
+            r"(A #\b (C) 'D :END)",
         ),
         ('(read (make-string-input-stream ""))', "failure :ERROR"),
     ],

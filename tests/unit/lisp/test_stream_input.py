@@ -10,8 +10,10 @@ from forms import value_of
     ("form", "value"),
     [
         (
-            '(let ((s (make-string-input-stream "a b"))) (list (multiple-value-list (read-line '
-            "s)) (read-line s nil :end)))",
+            (
+                '(let ((s (make-string-input-stream "a b"))) (list (multiple-value-list (read-line '
+                "s)) (read-line s nil :end)))"
+            ),
             '(("a b" T) :END)',
         ),
         ('(read-line (make-string-input-stream ""))', "failure :ERROR"),
@@ -26,13 +28,17 @@ def test_lines(form: str, value: str) -> None:
     ("form", "value"),
     [
         (
-            '(let ((s (make-string-input-stream "ab"))) (list (read-char s) (peek-char nil s) '
-            "(read-char s) (read-char s nil :end)))",
+            (
+                '(let ((s (make-string-input-stream "ab"))) (list (read-char s) (peek-char nil s) '
+                "(read-char s) (read-char s nil :end)))"
+            ),
             r"(#\a #\b #\b :END)",
         ),
         (
-            '(let ((s (make-string-input-stream "  ab"))) (list (peek-char t s) (read-char s) '
-            r"(unread-char #\a s) (peek-char #\b s)))",
+            (
+                '(let ((s (make-string-input-stream "  ab"))) (list (peek-char t s) (read-char s) '
+                r"(unread-char #\a s) (peek-char #\b s)))"
+            ),
             r"(#\a #\a NIL #\b)",
         ),
         ('(read-char (make-string-input-stream ""))', "failure :ERROR"),

@@ -10,8 +10,10 @@ from forms import value_of
     ("form", "value"),
     [
         (
-            '(let ((s (make-string-output-stream))) (write-string "abc" s) (list '
-            "(get-output-stream-string s) (get-output-stream-string s)))",
+            (
+                '(let ((s (make-string-output-stream))) (write-string "abc" s) (list '
+                "(get-output-stream-string s) (get-output-stream-string s)))"
+            ),
             '("abc" "")',
         ),
         ("(get-output-stream-string 5)", "failure :TYPE-ERROR"),

@@ -22,14 +22,16 @@ def test_names(form: str, value: str) -> None:
 @pytest.mark.parametrize(
     ("form", "value"),
     [
-        ("(set 'zork 5)", "5"),
+        (
+            "(progn (set 'zork 5) (list (boundp 'zork) (symbol-value 'zork) (boundp (makunbound 'zork))))",
+            "(T 5 NIL)",
+        ),
         ("(boundp 'nil)", "T"),
         ("(boundp 'unheard-of)", "NIL"),
         ("(symbol-value 'unheard-of)", "failure :UNBOUND-VARIABLE"),
         ("(symbol-value :a)", ":A"),
         ("(set 'pi 3)", "failure :ERROR"),
         ("(set 'nil 3)", "failure :ERROR"),
-        ("(boundp (makunbound 'zork))", "NIL"),
     ],
 )
 def test_values(form: str, value: str) -> None:
@@ -53,11 +55,15 @@ def test_functions(form: str, value: str) -> None:
 @pytest.mark.parametrize(
     ("form", "value"),
     [
-        ("(get 'widget 'colour)", "NIL"),
-        ("(get 'widget 'colour :none)", ":NONE"),
-        ("(setf (get 'widget 'colour) :red)", ":RED"),
-        ("(list (get 'widget 'colour) (symbol-plist 'widget))", "(:RED (COLOUR :RED))"),
-        ("(list (remprop 'widget 'colour) (remprop 'widget 'colour) (symbol-plist 'widget))", "(T NIL NIL)"),
+        ("(list (get 'gadget 'colour) (get 'gadget 'colour :none))", "(NIL :NONE)"),
+        (
+            (
+                "(progn (setf (get 'gadget 'colour) :red) (list (get 'gadget 'colour) (symbol-plist "
+                "'gadget) (remprop 'gadget 'colour) (remprop 'gadget 'colour) (symbol-plist "
+                "'gadget)))"
+            ),
+            "(:RED (COLOUR :RED) T NIL NIL)",
+        ),
     ],
 )
 def test_properties(form: str, value: str) -> None:
