@@ -7,9 +7,12 @@ dotted; whoever needs a proper list says so with `items`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from itertools import repeat
 
 from eslang.base.failure import type_error
 from eslang.base.symbols import Datum, Value
+
+SUSPICIOUS = 1_000_000  # a list so long is asked whether it is circular
 
 
 class Cons(Datum):
@@ -45,14 +48,44 @@ def lisp_list(*elements: Value) -> Value:
 
 def items(lst: Value) -> list[Value]:
     """The elements of a proper list, as a Python list; a type error for anything else."""
-    result = []
+    result: list[Value] = []
     rest = lst
-    while rest is not None:
-        if rest.__class__ is not Cons:
-            raise type_error(lst, "LIST")
-        result.append(rest.car)
+    while True:
+        for _ in repeat(None, SUSPICIOUS):
+            if rest.__class__ is not Cons:
+                if rest is None:
+                    return result
+                raise type_error(lst, "LIST")
+            result.append(rest.car)
+            rest = rest.cdr
+        check_end(lst)
+
+
+def cells(lst: Value) -> Iterator[Cons]:
+    """The conses of a proper list; a type error where it turns out to be none."""
+    rest = lst
+    while True:
+        for _ in repeat(None, SUSPICIOUS):
+            if rest.__class__ is not Cons:
+                if rest is None:
+                    return
+                raise type_error(lst, "LIST")
+            yield rest
+            rest = rest.cdr
+        check_end(lst)
+
+
+def check_end(lst: Value) -> None:
+    """A type error if LST is circular: whoever follows it would never arrive."""
+    landmark = rest = lst
+    steps, limit = 0, 2
+    while rest.__class__ is Cons:
         rest = rest.cdr
-    return result
+        if rest is landmark:
+            raise type_error(lst, "LIST")
+        steps += 1
+        if steps == limit:
+            landmark, steps, limit = rest, 0, limit * 2
 
 
 def is_proper(lst: Value) -> bool:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from itertools import repeat
+
 from eslang.base.failure import simple_error, type_error
-from eslang.base.lists import Cons, from_items, items
+from eslang.base.lists import SUSPICIOUS, Cons, cells, from_items, items
 from eslang.base.many import pack
 from eslang.base.symbols import Datum, Value
 from eslang.compile.registry import function
@@ -17,31 +19,13 @@ _KEY = ("KEY",)
 
 def _entry(alist: Value, by_car: bool, judge: Judge, sign: bool) -> Value:
     """The first entry of ALIST whose car (or cdr) the judge accepts."""
-    rest = alist
-    while rest is not None:
-        if rest.__class__ is not Cons:
-            raise type_error(alist, "LIST")
-        entry = rest.car
+    for cell in cells(alist):
+        entry = cell.car
         if entry is not None:
             if entry.__class__ is not Cons:
                 raise type_error(entry, "LIST")
             if (judge(entry.car if by_car else entry.cdr) is not None) is sign:
                 return entry
-        rest = rest.cdr
-    return None
-
-
-def _same_entry(item: Datum | None, alist: Value) -> Value:
-    """The first entry of ALIST whose car is ITEM itself."""
-    rest = alist
-    try:
-        while rest is not None:
-            entry = rest.car
-            if entry is not None and entry.car is item:
-                return entry
-            rest = rest.cdr
-    except AttributeError:
-        raise type_error(rest.car if rest.__class__ is Cons else alist, "LIST", "ASSOC") from None
     return None
 
 
@@ -49,7 +33,17 @@ def _same_entry(item: Datum | None, alist: Value) -> Value:
 def assoc(item: Value, alist: Value, *options: Value) -> Value:
     """Return the first entry of ALIST whose car matches ITEM, or NIL."""
     if not options and (item is None or isinstance(item, Datum)):
-        return _same_entry(item, alist)
+        rest = alist
+        try:
+            for _ in repeat(None, SUSPICIOUS):
+                if rest is None:
+                    return None
+                entry = rest.car
+                if entry is not None and entry.car is item:
+                    return entry
+                rest = rest.cdr
+        except AttributeError:
+            pass  # what is wrong, the long way tells
     return _entry(alist, True, *judge_item(item, *take_keys(options, _TESTS)))
 
 

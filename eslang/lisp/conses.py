@@ -6,10 +6,11 @@ Lists may be dotted or circular wherever Common Lisp allows it.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import repeat
 from operator import attrgetter
 
 from eslang.base.failure import type_error
-from eslang.base.lists import Cons, from_items, items, lisp_list
+from eslang.base.lists import SUSPICIOUS, Cons, check_end, from_items, items, lisp_list
 from eslang.base.symbols import Value, truth
 from eslang.compile.registry import function
 from eslang.lisp.arguments import check_index, take_keys
@@ -191,11 +192,15 @@ def make_list(size: Value, *options: Value) -> Value:
 
 def _cells(lst: Value) -> list[Value]:
     """The conses of a list, proper or dotted."""
-    cells = []
-    while lst.__class__ is Cons:
-        cells.append(lst)
-        lst = lst.cdr
-    return cells
+    cells: list[Value] = []
+    rest = lst
+    while True:
+        for _ in repeat(None, SUSPICIOUS):
+            if rest.__class__ is not Cons:
+                return cells
+            cells.append(rest)
+            rest = rest.cdr
+        check_end(lst)
 
 
 def _check_list(lst: Value, operator: str) -> None:
@@ -208,9 +213,11 @@ def last(lst: Value, n: Value = 1) -> Value:
     """Return the last N conses of LIST."""
     _check_list(lst, "LAST")
     if n == 1 and lst is not None:
-        while lst.cdr.__class__ is Cons:
-            lst = lst.cdr
-        return lst
+        rest = lst
+        for _ in repeat(None, SUSPICIOUS):
+            if rest.cdr.__class__ is not Cons:
+                return rest
+            rest = rest.cdr
     cells = _cells(lst)
     if check_index(n, "LAST") >= len(cells):
         return lst
@@ -269,9 +276,8 @@ def nconc(*lists: Value) -> Value:
 @function("(revappend list tail)")
 def revappend(lst: Value, tail: Value) -> Value:
     """Return the elements of LIST in reverse, and TAIL behind them."""
-    while lst is not None:
-        tail = Cons(car(lst), tail)
-        lst = lst.cdr
+    for element in items(lst):
+        tail = Cons(element, tail)
     return tail
 
 
@@ -312,19 +318,19 @@ def ldiff(lst: Value, tail: Value) -> Value:
     """Return a copy of that part of LIST which stands before TAIL."""
     _check_list(lst, "LDIFF")
     before: list[Value] = []
-    while lst.__class__ is Cons:
-        if lst is tail:
+    for cell in _cells(lst):
+        if cell is tail:
             return from_items(before)
-        before.append(lst.car)
-        lst = lst.cdr
+        before.append(cell.car)
+        lst = cell.cdr
     return from_items(before, None if is_eql(lst, tail) else lst)
 
 
 @function("(tailp tail list)")
 def tailp(tail: Value, lst: Value) -> Value:
     """True if TAIL is LIST or one of its tails."""
-    while lst.__class__ is Cons:
-        if lst is tail:
+    for cell in _cells(lst):
+        if cell is tail:
             return truth(True)
-        lst = lst.cdr
+        lst = cell.cdr
     return truth(is_eql(lst, tail))

@@ -8,18 +8,18 @@ a Lisp function.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from itertools import repeat
 
 from eslang.base.failure import index_out_of_range, simple_error, type_error
-from eslang.base.lists import Cons, from_items, items
+from eslang.base.lists import SUSPICIOUS, Cons, check_end, from_items, items
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import CHARACTERS, Character, String, Vector
 from eslang.compile.registry import function
 from eslang.lisp.arguments import check_index, take_keys
-from eslang.lisp.conses import list_length, nreconc
+from eslang.lisp.conses import nreconc
 from eslang.lisp.types import expand_type
 
 Builder = Callable[[list[Value]], Value]
-_SUSPICIOUS = 1_000_000  # a list this long is asked whether it is circular
 
 
 def elements(sequence: Value) -> list[Value]:
@@ -71,11 +71,15 @@ def walk(sequence: Value, start: Value = None, end: Value = None) -> Iterable[Va
 
 def _walk_list(lst: Value) -> Iterator[Value]:
     rest = lst
-    while rest is not None:
-        if rest.__class__ is not Cons:
-            raise type_error(lst, "LIST")
-        yield rest.car
-        rest = rest.cdr
+    while True:
+        for _ in repeat(None, SUSPICIOUS):
+            if rest.__class__ is not Cons:
+                if rest is None:
+                    return
+                raise type_error(lst, "LIST")
+            yield rest.car
+            rest = rest.cdr
+        check_end(lst)
 
 
 def _walk_part(lst: Value, start: Value, end: Value) -> Iterator[Value]:
@@ -181,14 +185,16 @@ def length(sequence: Value) -> Value:
         return len(sequence.text)
     if kind is Vector:
         return len(sequence.items) if sequence.fill is None else sequence.fill
+    if sequence is not None and kind is not Cons:
+        raise type_error(sequence, "SEQUENCE", "LENGTH")
     count, rest = 0, sequence
     while rest.__class__ is Cons:
         rest = rest.cdr
         count += 1
-        if count == _SUSPICIOUS and list_length(sequence) is None:
-            raise type_error(sequence, "LIST", "LENGTH")
+        if count == SUSPICIOUS:
+            check_end(sequence)
     if rest is not None:
-        raise type_error(sequence, "LIST" if kind is Cons else "SEQUENCE", "LENGTH")
+        raise type_error(sequence, "LIST", "LENGTH")
     return count
 
 

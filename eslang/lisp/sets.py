@@ -8,9 +8,10 @@ the first list, then of the second.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import repeat
 
 from eslang.base.failure import type_error
-from eslang.base.lists import Cons, from_items, items
+from eslang.base.lists import SUSPICIOUS, Cons, cells, from_items, items
 from eslang.base.symbols import Datum, Value, truth
 from eslang.compile.registry import function
 from eslang.lisp.arguments import take_keys
@@ -22,13 +23,9 @@ _KEY = ("KEY",)
 
 def _tail(lst: Value, judge: Judge, sign: bool) -> Value:
     """The first tail of LST whose car the judge accepts."""
-    rest = lst
-    while rest is not None:
-        if rest.__class__ is not Cons:
-            raise type_error(lst, "LIST", "MEMBER")
-        if (judge(rest.car) is not None) is sign:
-            return rest
-        rest = rest.cdr
+    for cell in cells(lst):
+        if (judge(cell.car) is not None) is sign:
+            return cell
     return None
 
 
@@ -37,13 +34,14 @@ def member(item: Value, lst: Value, *options: Value) -> Value:
     """Return the first tail of LIST whose element matches ITEM, or NIL."""
     if not options and (item is None or isinstance(item, Datum)):
         rest = lst
-        while rest is not None:
+        for _ in repeat(None, SUSPICIOUS):
             if rest.__class__ is not Cons:
+                if rest is None:
+                    return None
                 raise type_error(lst, "LIST", "MEMBER")
             if rest.car is item:
                 return rest
             rest = rest.cdr
-        return None
     return _tail(lst, *judge_item(item, *take_keys(options, _TESTS)))
 
 

@@ -162,9 +162,28 @@ def test_list_length_tells_a_circular_list() -> None:
         call("list-length", dotted(1, 2))
 
 
-def test_the_length_of_a_circular_list_is_a_type_error() -> None:
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["length", "last", "copy-list", "reverse", "butlast", "copy-alist"])
+def test_a_circular_list_where_a_proper_one_is_needed_is_a_type_error(name: str) -> None:
     with fails("TYPE-ERROR"):
-        call("length", circular())
+        call(name, circular())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["member", "find", "position", "count", "remove"])
+def test_nothing_is_looked_for_in_a_circular_list_for_ever(name: str) -> None:
+    for item in (9, None):
+        with fails("TYPE-ERROR"):
+            call(name, item, circular())
+
+
+@pytest.mark.slow
+def test_a_circular_alist_is_a_type_error() -> None:
+    ring = lisp([[1, 2]])
+    ring.cdr = ring
+    for item in (9, None):
+        with fails("TYPE-ERROR"):
+            call("assoc", item, ring)
 
 
 def test_tails() -> None:
