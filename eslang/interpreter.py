@@ -19,15 +19,18 @@ from eslang.base.diagnostics import error_at
 from eslang.base.failure import UNBOUND_VARIABLE, Failure
 from eslang.base.image import PACKAGE, Image
 from eslang.base.many import values_list
+from eslang.base.printer import prin1
 from eslang.base.resolve import resolve_in
 from eslang.base.running import running, to_function
 from eslang.base.spans import Source, Spans
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.registry import DEFINITIONS, Definition
+from eslang.compile.support import SUPPORT
 from eslang.devices import widget
 from eslang.facts.unify import Patterns
 from eslang.lisp.streams import OutputStream
 from eslang.primitives import make_primitive
+from eslang.texts import Texts
 from eslang.runtime.bindings import Bindings
 from eslang.runtime.chance import make_chance
 from eslang.runtime.clock import make_clock
@@ -72,7 +75,15 @@ class Interpreter:
         self.ticks = Ticks()
         self.closed = False
         self._library = True  # what is defined now is the library's
-        self._support: dict[str, Any] | None = None
+        self.support = {
+            **SUPPORT,
+            "%bind": self.bindings.bind,
+            "%bind-all": self.bindings.bind_all,
+            "%unbind": self.bindings.unbind,
+            "%signal-error": signal_error,
+            "%ticks": self.ticks.ticks,
+        }
+        self.texts = Texts(self)
         sys.setrecursionlimit(max(sys.getrecursionlimit(), DEEPEST))
         with self.at_work():
             self._install()
@@ -89,9 +100,7 @@ class Interpreter:
         image.cell(PACKAGE).special = True
         for definition in DEFINITIONS:
             self._install_definition(definition)
-        for path in prelude.stdlib_files():
-            if path.exists():
-                self._load_source(Source(f"<stdlib>/{path.name}", path.read_text(encoding="utf-8")))
+        self.texts.load_library(prelude.stdlib_files())
         image.cell(PACKAGE).value = image.packages["ESL-USER"]
         widget.install(self)
 
@@ -124,14 +133,11 @@ class Interpreter:
         """A compiler for one text; the first one brings the special forms along."""
         from eslang.compile.toplevel import Compiler
 
-        if self._support is None:
+        if not self.image.special_forms:
             self._install_special_forms()
-        assert self._support is not None
-        return Compiler(self.image, self._support, name)
+        return Compiler(self.image, self.support, name)
 
     def _install_special_forms(self) -> None:
-        from eslang.compile.support import SUPPORT
-
         for definition in DEFINITIONS:
             if definition.kind == "special form":
                 symbol = self.image.packages[definition.package].intern(definition.name)
@@ -141,14 +147,6 @@ class Interpreter:
                         self.image.cell(symbol).definition = definition
                     if not symbol.name.startswith("%"):
                         self.image.packages[definition.package].export(symbol.name)
-        self._support = {
-            **SUPPORT,
-            "%bind": self.bindings.bind,
-            "%bind-all": self.bindings.bind_all,
-            "%unbind": self.bindings.unbind,
-            "%signal-error": signal_error,
-            "%ticks": self.ticks.ticks,
-        }
 
     def is_special_form(self, symbol: Value) -> bool:
         """True if SYMBOL names a special form."""
@@ -172,6 +170,7 @@ class Interpreter:
         """All the values of a top-level form. Raises Failure, or EslError for a wrong program."""
         compiler = compiler or self.compiler(reading.span.source.name)
         with self.at_work():
+            self.texts.note(prin1(reading.form))
             result = compiler.run(
                 reading.form,
                 reading.spans,
@@ -184,33 +183,19 @@ class Interpreter:
     def evaluate_form(self, form: Value, *, many: bool = False) -> Value:
         """EVAL: the value of a form, within the task at work."""
         compiler = self.compiler("<eval>")
+        self.texts.note(prin1(form))
         return compiler.run(form, Spans(), None, many=many, run=lambda code: compiler.unit.load(code)())
-
-    def _load_source(self, source: Source) -> Value:
-        """Read, compile and run the forms of a source; the value of the last."""
-        compiler = self.compiler(source.name)
-        result: Value = None
-        for reading in self.readings(source):
-            result = compiler.run(
-                reading.form,
-                reading.spans,
-                reading.span,
-                run=lambda code: run_task(compiler.unit.load(code)),
-            )
-        return result
 
     # --- the embedder's doors --------------------------------------------------
 
     def load(self, path: str | Path) -> None:
         """Load a file of forms. Raises Failure, EslError, OSError."""
-        from eslang.reader.reader import decode
-
         self._check_open()
         with self.at_work():
-            source = decode(Path(path).read_bytes(), str(path))
+            source = _source(Path(path).read_bytes(), str(path))
             package = self.image.cell(PACKAGE).value
             try:
-                self._load_source(source)
+                self.texts.load(source)
             finally:
                 self.image.cell(PACKAGE).value = package
 
@@ -218,7 +203,7 @@ class Interpreter:
         """The value of the last form in TEXT, as Python has it. Raises Failure, EslError."""
         self._check_open()
         with self.at_work():
-            return to_python(self._load_source(Source(name, text)))
+            return to_python(self.texts.run(Source(name, text)))
 
     def call(self, name: str | Symbol, *arguments: Any) -> Any:
         """Call a function by name (or a function itself); runs until it ends. Raises Failure."""
@@ -303,6 +288,16 @@ class Interpreter:
 
     def __exit__(self, *error: object) -> None:
         self.close()
+
+
+def _source(text: bytes, name: str) -> Source:
+    """A file's source. The reader is not loaded for it, unless to say what is wrong."""
+    try:
+        return Source(name, text.decode("utf-8-sig"))
+    except UnicodeDecodeError:
+        from eslang.reader.reader import decode
+
+        return decode(text, name)
 
 
 class AtWork:

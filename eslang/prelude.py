@@ -20,10 +20,11 @@ ROOMS = [
     "eslang.constructs.esl.contingency",
     "eslang.constructs.esl.conditions",
     "eslang.constructs.esl.goals",
+    "eslang.constructs.esl.prompt",
     "eslang.constructs.esl.doubles",
     "eslang.constructs.esl.documentation",
 ]
-FILES = "control places loop packages structures conditions widgets recovery testing".split()
+FILES = "control places loop types packages structures conditions widgets recovery testing".split()
 
 
 def import_rooms() -> None:

@@ -63,6 +63,7 @@ class Analyser:
         span: Span | None,
         compile_expander: Callable[[Value, Scope], Any],
         uses: list[Use] | None = None,
+        expanders: list[Any] | None = None,
     ) -> None:
         self.image = image
         self.compile_expander = compile_expander  # a MACROLET function from its LAMBDA form
@@ -71,6 +72,7 @@ class Analyser:
         self.names: dict[str, int] = {}
         self.definition: str | None = None  # the definition around the form, for `= in`
         self.uses = uses
+        self.expanders = expanders if expanders is not None else []  # of the macros met on the way
 
     # --- names -----------------------------------------------------------------
 

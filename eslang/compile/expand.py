@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from eslang.base.control import Failed
+from eslang.base.control import Failed
 from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
 from eslang.base.image import Image
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
 def expand_macro(form: Cons, expander: Any, scope: Scope, analyser: Analyser) -> Value:
     """The expansion of FORM; what goes wrong in the expander is an error of the program."""
+    analyser.expanders.append(expander)
     try:
         return expander(form, scope)
     except EslError:

@@ -19,6 +19,7 @@ from eslang.base.symbols import Symbol, Value
 from eslang.compile import backquote, bindings, core_forms, definitions, destructuring, exits, functions
 from eslang.compile.analyser import Analyser, Use
 from eslang.compile.expand import expand_macro
+from eslang.compile.purity import is_pure
 from eslang.compile.scope import LocalMacro, Scope
 from eslang.compile.unit import Unit
 
@@ -34,6 +35,11 @@ class Compiler:
         self.unit = Unit(image, support, name)
         self.codes: list[CodeType] = []
         self.uses: list[Use] | None = None
+        self.expanders: list[Any] = []  # of the macros that were expanded
+
+    def is_pure(self) -> bool:
+        """True if compiling the text again could not matter."""
+        return all(is_pure(expander) for expander in self.expanders)
 
     def run(
         self,
@@ -45,10 +51,12 @@ class Compiler:
         many: bool = False,
     ) -> Value:
         """Compile FORM and let RUN run its code; the value, or with `many` all the values."""
+        counters = dict(self.image.counters)
         try:
             form = self._expanded(form, spans, span)
             parts = self._parts(form)
             if parts is not None:
+                self.image.counters = counters
                 result: Value = None
                 for part in parts[:-1]:
                     self.run(part, spans, spans.of(part) or span, run=run)
@@ -59,6 +67,7 @@ class Compiler:
         except RecursionError:
             raise error_at("nested-too-deep", "this form is nested too deep to compile", span) from None
         self.codes.append(code)
+        self.image.counters = counters  # expanding counts for nothing: a kept text does not expand
         return run(code)
 
     def _parts(self, form: Value) -> list[Value] | None:
@@ -89,7 +98,7 @@ class Compiler:
         return form
 
     def _scope(self, spans: Spans, span: Span | None) -> tuple[Analyser, Scope]:
-        analyser = Analyser(self.image, spans, span, self._expander, self.uses)
+        analyser = Analyser(self.image, spans, span, self._expander, self.uses, self.expanders)
         return analyser, Scope(None, analyser.procedure("top level", None), analyser)
 
     def _code(self, form: Value, spans: Spans, span: Span | None, many: bool) -> CodeType:

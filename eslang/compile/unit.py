@@ -10,32 +10,30 @@ from __future__ import annotations
 
 import ast
 import warnings
-from types import CodeType, FunctionType
+from types import CodeType
 from typing import Any
 
 from eslang.base.diagnostics import error_at
 from eslang.base.image import Image
 from eslang.base.symbols import Symbol, Value
+from eslang.compile import core
+from eslang.compile.code import SEPARATOR, Code
 from eslang.compile.core import Exit, Lambda, Node, Procedure
 from eslang.compile.emit import Destination
 from eslang.compile.emit_functions import Emitter
 
 DEEPEST = 400  # nested control structures, in statements: Python's compiler walks them on the C stack
-SEPARATOR = "\0"
 
 
-class Unit:
+class Unit(Code):
     """The code of one text, as it grows form by form."""
 
     def __init__(self, image: Image, support: dict[str, Any], name: str) -> None:
-        self.image = image
+        super().__init__(image, support)
         self.name = name
-        self.globals: dict[str, Any] = dict(support)
-        self.globals["%many"] = self.variant
         self.cells: dict[Symbol, str] = {}
         self.constants: dict[int, tuple[str, Value]] = {}
         self.lambdas: list[Lambda] = []
-        self.variants: dict[int, CodeType] = {}
         self.titles: dict[str, tuple[str, int]] = {}
         self.stable: set[str] = set()  # Python names that are assigned once
         self.counter = 0
@@ -59,7 +57,7 @@ class Unit:
         if name is None:
             name = f"@{symbol.package}:{symbol.name}" if symbol.package else f"@{len(self.cells)}:{symbol.name}"
             self.cells[symbol] = name
-            self.globals[name] = self.image.cell(symbol)
+            self.add_cell(name, symbol)
         return name
 
     def constant_name(self, value: Value) -> str:
@@ -68,7 +66,7 @@ class Unit:
         if entry is None:
             entry = (f"'{len(self.constants)}", value)
             self.constants[id(value)] = entry
-            self.globals[entry[0]] = value
+            self.add_constant(entry[0], value)
         return entry[0]
 
     def number(self, node: Lambda) -> None:
@@ -119,29 +117,15 @@ class Unit:
         name, number = self.titles.get(code.co_name, (code.co_name, 0))
         return code.replace(co_consts=constants, co_name=name, co_qualname=f"{name}{SEPARATOR}{number}")
 
-    def load(self, code: CodeType) -> FunctionType:
-        """The function of a top-level form's code."""
-        return FunctionType(code, self.globals)
-
     # --- variants --------------------------------------------------------------
 
-    def variant(self, function: FunctionType) -> FunctionType:
-        """The variant of FUNCTION, one of ours, that gives all its values."""
-        number = function.__code__.co_qualname.partition(SEPARATOR)[2]
-        if not int(number or 0):
-            return function
-        code = self.variant_code(int(number))
-        cells = dict(zip(function.__code__.co_freevars, function.__closure__ or (), strict=True))
-        closure = tuple(cells[name] for name in code.co_freevars)
-        variant = FunctionType(code, self.globals, function.__name__, function.__defaults__, closure)
-        variant.__qualname__ = function.__qualname__
-        return variant
-
-    def variant_code(self, number: int) -> CodeType:
-        """The code of function NUMBER that gives all its values."""
+    def variant_code(self, number: int) -> CodeType | None:
+        """The code of function NUMBER that gives all its values, made when first wanted."""
         code = self.variants.get(number)
         if code is None:
             node = self.lambdas[number - 1]
+            if not may_be_many(node.body):
+                return None
             emitter = Emitter(self, node.procedure.parent, many=True)
             emitter.move(node.span)
             name = self.function_name(node)
@@ -151,6 +135,22 @@ class Unit:
             wrapper = emitter.define("%outer", [], [], None, [*outer, definition])
             code = self.variants[number] = self.extract([wrapper], name)
         return code
+
+
+def may_be_many(node: Node) -> bool:
+    """True unless NODE surely gives exactly one value."""
+    match node:
+        case core.Seq(nodes=nodes):
+            return may_be_many(nodes[-1])
+        case core.If(then=then, otherwise=otherwise):
+            return may_be_many(then) or may_be_many(otherwise)
+        case core.Let(body=body) | core.Receive(body=body) | core.Bind(body=body) | core.LocalFunctions(body=body):
+            return may_be_many(body)
+        case core.Const() | core.Local() | core.Global() | core.Inline() | core.Lambda() | core.FunctionOf():
+            return False
+        case core.SetLocal() | core.SetGlobal() | core.While() | core.Tagbody():
+            return False
+    return True
 
 
 def find_code(code: CodeType, name: str) -> CodeType:

@@ -1,0 +1,84 @@
+"""Texts: how the forms of a file, a string or the library are loaded.
+
+A file is taken from the cache of compiled code if it was compiled before under
+the same circumstances; else it is read, compiled and run form by form, and
+kept. What was loaded so far, and in which order, is part of the circumstances.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from types import FunctionType
+from typing import Any
+
+from eslang.base.spans import Source
+from eslang.base.symbols import Value
+from eslang.compile import cache
+from eslang.runtime.failures import run_task
+
+
+class Texts:
+    """Loads texts into one interpreter."""
+
+    def __init__(self, session: Any) -> None:
+        self.session = session
+        self.circumstances = ""  # a digest of all that was loaded or evaluated before
+
+    def note(self, text: str) -> None:
+        """Remember that TEXT was evaluated: what is compiled later may depend on it."""
+        self.circumstances = cache.digest(self.circumstances, text)
+
+    def run(self, source: Source) -> Value:
+        """Read, compile and run the forms of a source; the value of the last."""
+        self.note(source.text)
+        return self._compile(source)[1]
+
+    def load(self, source: Source) -> None:
+        """Load a file: from the cache, if it is there."""
+        key = cache.digest(self.circumstances, source.name, source.text, self.session.image.package.name)
+        kept = cache.fetch(key)
+        self.note(source.text)
+        if kept is not None:
+            for entry in kept:
+                self._run_kept(entry)
+            return
+        compiler, _ = self._compile(source)
+        entry = cache.write_down(compiler) if compiler.is_pure() else None
+        if entry is not None:
+            cache.keep(key, [entry])
+
+    def load_library(self, paths: list[Path]) -> None:
+        """Load the library, all of it or none from the cache."""
+        stats = [(path, path.stat()) for path in paths]
+        named = [f"{path} {stat.st_size} {stat.st_mtime_ns}" for path, stat in stats]
+        key = self.circumstances = cache.digest(cache.fingerprint(), *named)
+        kept = cache.fetch(key)
+        if kept is not None:
+            for entry in kept:
+                self._run_kept(entry)
+            return
+        entries = []
+        for path in paths:
+            compiler, _ = self._compile(Source(f"<stdlib>/{path.name}", path.read_text(encoding="utf-8")))
+            entries.append(cache.write_down(compiler))
+        if all(entry is not None for entry in entries):
+            cache.keep(key, [entry for entry in entries if entry is not None])
+
+    def _compile(self, source: Source) -> tuple[Any, Value]:
+        """Compile and run a source form by form; its compiler, and the value of the last form."""
+        compiler = self.session.compiler(source.name)
+        result: Value = None
+        run = self._runner(compiler.unit.load)
+        for reading in self.session.readings(source):
+            result = compiler.run(reading.form, reading.spans, reading.span, run=run)
+        return compiler, result
+
+    def _runner(self, load: Callable[[Any], FunctionType]) -> Callable[[Any], Value]:
+        return lambda code: run_task(load(code))
+
+    def _run_kept(self, kept: cache.Kept) -> None:
+        """Run the top-level forms of a text that was kept."""
+        code = cache.take_up(kept, self.session.image, self.session.support)
+        for form in kept.codes:
+            run_task(code.load(form))
