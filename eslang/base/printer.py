@@ -33,6 +33,7 @@ _PREFIXES = {
         ("UNQUOTE-SPLICING", ",@"),
     )
 }
+_BACKQUOTES = {"`": 1, ",": -1, ",@": -1}
 _LOGICAL_BINDING = Symbol.intern("LOGICAL-BINDING", "ESL")
 _SUSPICIOUS = 20_000  # conses printed before we look whether the structure contains itself
 _NESTED_OBJECTS = 50  # objects that print themselves inside one another
@@ -188,6 +189,7 @@ class _Printer:
         self.settings = settings
         self.shared = shared  # id of each part met twice → its label, 0 until it is printed
         self.labels = 0
+        self.backquotes = 0  # how many are open here
         self.conses = 0
         self.out: list[str] = []
         self.work: list[tuple[Any, ...]] = []
@@ -253,11 +255,17 @@ class _Printer:
             if name.startswith("?"):
                 self.out.append("#" + name)
             return name.startswith("?")
-        if prefix == "," and name.startswith("@"):
-            prefix = ", "
-        self.out.append(prefix)
-        self.work.append((self.write, rest.car, depth))
+        step = _BACKQUOTES.get(prefix, 0)
+        if self.backquotes + step < 0:  # a comma outside of any backquote would not read back
+            return False
+        self.out.append(", " if prefix == "," and name.startswith(("@", ".")) else prefix)
+        self.backquotes += step
+        self.work += [(self.leave, step), (self.write, rest.car, depth)]
         return True
+
+    def leave(self, step: int) -> None:
+        """Behind a backquote or comma, as many backquotes are open as before it."""
+        self.backquotes -= step
 
     def write_list(self, rest: Value, depth: int, count: int) -> None:
         """Write the elements from REST on, COUNT having been written, and the closing parenthesis."""
