@@ -347,5 +347,7 @@ def type_of(value: Value) -> Value:
 @function("(%define-type name expander)")
 def _define_type(name: Symbol, expander: Value) -> Value:
     """Let the type NAME be short for what EXPANDER makes of its arguments."""
+    if name in _SIMPLE or name in _COMPOUND:
+        raise simple_error("this names a type of Common Lisp:", name)
     define_type(name, Type(expand=to_function(expander)))
     return name
