@@ -164,6 +164,7 @@ class Interpreter:
         """The top-level forms of a source, each read with the package of the moment."""
         from eslang.reader.reader import read_forms
 
+        self.compiler(source.name)  # brings the special forms, whose names the reader is to find
         return read_forms(source, resolve_in(self.image))
 
     def evaluate(self, reading: Reading, compiler: Compiler | None = None) -> list[Value]:
