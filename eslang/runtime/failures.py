@@ -247,7 +247,12 @@ def run_with_cleanup(body: Callable[[], Value], cleanup: Callable[[], Value]) ->
     except Unwind as jump:
         if jump.failed:
             dynamic.forms = outer
-            _guarded(cleanup)
+            ticks = running.session.ticks
+            ticks.held += 1
+            try:
+                _guarded(cleanup)
+            finally:
+                ticks.held -= 1
         raise
 
 

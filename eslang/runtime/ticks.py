@@ -24,6 +24,7 @@ class Ticks:
 
     def __init__(self) -> None:
         self.pending: Stop | None = None
+        self.held = 0  # cleanups that are under way: a stop waits for them
         self._source: Iterator[None] = self._make()
 
     def _make(self) -> Iterator[None]:
@@ -39,7 +40,7 @@ class Ticks:
 
     def safepoint(self) -> None:
         """Obey a pending stop."""
-        if self.pending is not None:
+        if self.pending is not None and not self.held:
             stop, self.pending = self.pending, None
             sys.setprofile(None)
             self._source = self._make()
