@@ -87,14 +87,21 @@ def outcome(interp: Any, work: Callable[[], None]) -> int:
     except EslError as error:
         code = complain(interp, str(error), WRONG)
     except Stop as stop:
-        code = complain(interp, f"esl: {stop.reason}", stop.code) if stop.code else 0
-    interp.output.flush()
+        if not stop.code:
+            return 0  # nobody reads the output any more, or (quit)
+        code = complain(interp, f"esl: {stop.reason}", stop.code)
+    finish_output(interp)
     return code
+
+
+def finish_output(interp: Any) -> None:
+    """Let all that was printed arrive, its last line ended."""
+    interp.output.fresh_line()
+    interp.output.flush()
 
 
 def complain(interp: Any, text: str, code: int) -> int:
     """Write TEXT to standard error, behind all that was printed; CODE."""
-    interp.output.flush()
-    sys.stdout.flush()
+    finish_output(interp)
     sys.stderr.write(text.rstrip("\n") + "\n")
     return code

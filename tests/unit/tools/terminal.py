@@ -15,7 +15,7 @@ from collections.abc import Sequence
 
 from unit.tools.command import environment
 
-CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|\x1b[()][A-Z0-9]|\x1b\][^\x07]*\x07|\x1b[=>78]|\x07|\x08")
+CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|\x1b[()][A-Z0-9]|\x1b\][^\x07]*\x07|\x1b[=>78]|\x07|\x08|\x1b[^A-Za-z]*\Z")
 
 
 class Terminal:
