@@ -254,6 +254,7 @@ class Interpreter:
             cell = self.image.cell(symbol)
             definition.package = symbol.package or ""
             cell.function, cell.definition, cell.macro = definition.implementation, definition, None
+            self.defined(symbol)
             return made
 
         return register if function is None else register(function)
