@@ -187,7 +187,7 @@ class Collector:
     def pytest_collect_file(self, file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
         """The kind of test that FILE_PATH is, if it is one."""
         where = place(file_path)
-        if file_path.suffix == ".esl" and where.startswith(("tests/conformance/", "plans/")):
+        if file_path.suffix == ".esl" and where.startswith(("tests/conformance/", "tests/lisp/", "plans/")):
             return Program.from_parent(parent, path=file_path)
         if file_path.suffix == ".transcript" and where.startswith(("tests/transcripts/", "plans/")):
             return Transcript.from_parent(parent, path=file_path)
