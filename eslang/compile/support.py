@@ -17,6 +17,7 @@ from eslang.base.failure import control_error, simple_error
 from eslang.base.lists import Cons, from_items
 from eslang.base.many import Values, many_of, primary, values_list
 from eslang.base.running import to_function
+from eslang.base.sameness import is_eq, is_eql
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.base.text import Character, String, Vector
 
@@ -41,21 +42,6 @@ class Box:
 
     def __init__(self, value: Value) -> None:
         self.value = value
-
-
-def eq(left: Value, right: Value) -> bool:
-    """EQ; equal integers are the same object to a Lisp program."""
-    return left is right or (left.__class__ is int and right.__class__ is int and left == right)
-
-
-def eql(left: Value, right: Value) -> bool:
-    """EQL: the same object, or equal numbers of one type."""
-    if left is right:
-        return True
-    kind = left.__class__
-    if kind is not right.__class__:
-        return False
-    return (kind is int or kind is float or kind.__name__ == "Ratio") and left == right
 
 
 def receive(result: Value, count: int) -> tuple[Value, ...]:
@@ -109,7 +95,9 @@ def call_with_values(function: Value, *results: Value) -> Value:
 
 def call_with_values_many(function: Value, *results: Value) -> Value:
     """MULTIPLE-VALUE-CALL, for all values."""
-    return spread(many_of(to_function(function)), [value for result in results for value in values_list(result)])
+    return spread(
+        many_of(to_function(function)), [value for result in results for value in values_list(result)]
+    )
 
 
 def return_from(token: Exit, value: Value) -> None:
@@ -211,8 +199,8 @@ SUPPORT: dict[str, Any] = {
     "%Exit": Exit,
     "%ReturnFrom": ReturnFrom,
     "%Go": Go,
-    "%eq": eq,
-    "%eql": eql,
+    "%eq": is_eq,
+    "%eql": is_eql,
     "%primary": primary,
     "%receive": receive,
     "%many-of": many_of,

@@ -11,10 +11,10 @@ from operator import attrgetter
 
 from eslang.base.failure import type_error
 from eslang.base.lists import SUSPICIOUS, Cons, check_end, from_items, items, lisp_list
+from eslang.base.sameness import is_eql
 from eslang.base.symbols import Value, truth
 from eslang.compile.registry import function
 from eslang.lisp.arguments import check_index, take_keys
-from eslang.lisp.predicates import is_eql
 
 function("(list &rest elements)")(lisp_list)
 

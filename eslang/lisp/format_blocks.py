@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from eslang.base.lists import items
+from eslang.base.sameness import is_eql
 from eslang.base.symbols import Value
 from eslang.lisp.format_control import Directive, Items, directive, parse_control
 from eslang.lisp.format_run import ANY, GO_ON, LEAVE, LEAVE_ALL, Run
 from eslang.lisp.format_text import BLANK
-from eslang.lisp.predicates import is_eql
 from eslang.lisp.strings import capitalize, check_string
 
 _LINE = 72  # how long a line is, where nobody says

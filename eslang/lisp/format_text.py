@@ -10,13 +10,13 @@ from collections.abc import Callable
 from eslang.base.character_names import character_name
 from eslang.base.printer import write_text
 from eslang.base.running import running, to_function
+from eslang.base.sameness import is_eql
 from eslang.base.symbols import Value, truth
 from eslang.base.text import character
 from eslang.lisp.characters import check_character
 from eslang.lisp.format_control import Directive, directive
 from eslang.lisp.format_run import ANY, GO_ON, Run
 from eslang.lisp.output import current_settings, prin1_text, princ_text
-from eslang.lisp.predicates import is_eql
 
 BLANK = character(" ")
 

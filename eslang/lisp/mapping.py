@@ -9,6 +9,7 @@ from eslang.base.lists import Cons, from_items
 from eslang.base.running import to_function
 from eslang.base.symbols import Value
 from eslang.compile.registry import function
+from eslang.compile.support import spread
 from eslang.lisp.conses import nconc
 
 
@@ -35,7 +36,7 @@ def _collect_many(call: Any, rests: list[Value], by_element: bool) -> list[Value
                 return results
             if rest.__class__ is not Cons:
                 raise type_error(rest, "LIST")
-        results.append(call(*[rest.car for rest in rests] if by_element else rests))
+        results.append(spread(call, [rest.car for rest in rests] if by_element else rests))
         rests = [rest.cdr for rest in rests]
 
 

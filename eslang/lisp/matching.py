@@ -13,9 +13,10 @@ from typing import Any
 
 from eslang.base.failure import simple_error
 from eslang.base.running import to_function
+from eslang.base.sameness import is_eql
 from eslang.base.symbols import Symbol, T, Value
 from eslang.lisp.hashing import eql_key, equal_key, equalp_key
-from eslang.lisp.predicates import eq, eql, equal, equalp, is_eql, is_equal, is_equalp
+from eslang.lisp.predicates import eq, eql, equal, equalp, is_equal, is_equalp
 
 Judge = Callable[[Value], Value]
 Agreement = Callable[[Value, Value], bool]

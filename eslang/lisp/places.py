@@ -11,9 +11,9 @@ from eslang.base.failure import TYPE_ERROR, Failure, simple_error, type_error
 from eslang.base.lists import Cons
 from eslang.base.many import pack
 from eslang.base.running import running
+from eslang.base.sameness import is_eql
 from eslang.base.symbols import Symbol, T, Value
 from eslang.compile.registry import function
-from eslang.lisp.predicates import is_eql
 
 OURS = ("COMMON-LISP", "ESL", "SCS")
 

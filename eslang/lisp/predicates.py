@@ -10,24 +10,11 @@ from types import FunctionType
 
 from eslang.base.lists import Cons
 from eslang.base.packages import Package
+from eslang.base.sameness import is_eq, is_eql
 from eslang.base.symbols import Keyword, Symbol, Value, truth
 from eslang.base.text import Array, Character, String, Vector
 from eslang.compile.registry import function
 from eslang.lisp.hashing import equalp_key
-
-
-def is_eql(a: Value, b: Value) -> bool:
-    """The same object, or numbers of the same type and value."""
-    if a is b:
-        return True
-    kind = a.__class__
-    if kind is not b.__class__:
-        return False
-    if kind is int:
-        return bool(a == b)
-    if kind is float:
-        return bool(a.hex() == b.hex())
-    return kind.__name__ == "Ratio" and bool(a == b)
 
 
 def _is_equal_atom(a: Value, b: Value) -> bool:
@@ -108,7 +95,7 @@ def is_function(value: Value) -> bool:
 @function("(eq x y)")
 def eq(x: Value, y: Value) -> Value:
     """True if X and Y are the same object; equal integers are."""
-    return truth(x is y or (x.__class__ is int and y.__class__ is int and x == y))
+    return truth(is_eq(x, y))
 
 
 @function("(eql x y)")

@@ -8,6 +8,7 @@ from eslang.base.running import to_function
 from eslang.base.symbols import Value, truth
 from eslang.base.text import Vector
 from eslang.compile.registry import function
+from eslang.compile.support import spread
 from eslang.lisp.arguments import UNSUPPLIED, take_keys
 from eslang.lisp.matching import keyed
 from eslang.lisp.sequences import build, elements, length, section, store, walk
@@ -22,7 +23,7 @@ def _results(f: Value, sequences: tuple[Value, ...]) -> list[Value]:
             results.append(call(element))
     else:
         for row in zip(*[walk(sequence) for sequence in sequences], strict=False):
-            results.append(call(*row))
+            results.append(spread(call, list(row)))
     return results
 
 
@@ -49,7 +50,7 @@ def map_into(target: Value, f: Value, *sequences: Value) -> Value:
             results.append(call())
     else:
         for row in zip(range(size), *[walk(sequence) for sequence in sequences], strict=False):
-            results.append(call(*row[1:]))
+            results.append(spread(call, list(row[1:])))
     store(target, results)
     if filled:
         target.fill = len(results)
@@ -96,7 +97,7 @@ def _first_result(predicate: Value, sequences: tuple[Value, ...], wanted: bool) 
                 return result
         return UNSUPPLIED
     for row in zip(*[walk(sequence) for sequence in sequences], strict=False):
-        result = call(*row)
+        result = spread(call, list(row))
         if (result is not None) is wanted:
             return result
     return UNSUPPLIED

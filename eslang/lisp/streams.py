@@ -18,6 +18,7 @@ from eslang.base.text import String
 from eslang.compile.registry import function, variable
 from eslang.lisp.arguments import take_keys
 from eslang.lisp.strings import bounds, check_string
+from eslang.lisp.types import define_simple_type
 
 
 class OutputStream(Datum):
@@ -162,6 +163,10 @@ class TwoWayStream(Datum):
     def print_lisp(self, settings: Any) -> str:
         """How the printer shows a stream."""
         return "#<TWO-WAY-STREAM>"
+
+
+define_simple_type("STREAM", lambda value: isinstance(value, (OutputStream, InputStream, TwoWayStream)))
+define_simple_type("STRING-STREAM", lambda value: isinstance(value, StringOutputStream))
 
 
 def _standard_output() -> Value:

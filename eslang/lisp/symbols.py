@@ -10,11 +10,12 @@ from eslang.base.failure import simple_error, type_error, unbound_variable, unde
 from eslang.base.image import Cell
 from eslang.base.lists import Cons
 from eslang.base.running import running
+from eslang.base.sameness import is_eql
 from eslang.base.symbols import Keyword, Symbol, T, Value, truth
 from eslang.base.text import String
 from eslang.compile.registry import function
 from eslang.lisp.numbers import is_integer
-from eslang.lisp.predicates import is_eql, is_symbol
+from eslang.lisp.predicates import is_symbol
 from eslang.lisp.strings import check_string
 
 _SETF = Symbol.intern("SETF", "COMMON-LISP")

@@ -13,13 +13,14 @@ from eslang.base.failure import simple_error
 from eslang.base.lists import Cons, from_items, items
 from eslang.base.packages import Package
 from eslang.base.running import running, to_function
+from eslang.base.sameness import is_eql
 from eslang.base.symbols import Keyword, Symbol, T, Value, truth
 from eslang.base.text import Array, Character, String, Vector
 from eslang.compile.registry import function
+from eslang.compile.support import spread
 from eslang.lisp.hashing import HashTable
 from eslang.lisp.predicates import (
     is_array,
-    is_eql,
     is_function,
     is_list,
     is_number,
@@ -63,7 +64,7 @@ def expand_type(specifier: Value) -> Value:
         kind = find_type(head)
         if kind is None or kind.expand is None:
             return specifier
-        specifier = kind.expand(*arguments)
+        specifier = spread(kind.expand, arguments)
 
 
 def _parted(specifier: Value) -> tuple[Value, list[Value]]:
