@@ -24,22 +24,25 @@ from eslang.base.resolve import resolve_in
 from eslang.base.running import running, to_function
 from eslang.base.spans import Source, Spans
 from eslang.base.symbols import Symbol, Value
+from eslang.base.text import String
 from eslang.compile.registry import DEFINITIONS, Definition
 from eslang.compile.support import SUPPORT
 from eslang.devices import widget
 from eslang.facts.unify import Patterns
+from eslang.lisp.loading import LOAD_PATHNAME
 from eslang.lisp.streams import OutputStream
 from eslang.primitives import make_primitive
-from eslang.texts import Texts
 from eslang.runtime.bindings import Bindings
 from eslang.runtime.chance import make_chance
 from eslang.runtime.clock import make_clock
 from eslang.runtime.failures import Causes, Dynamic, run_task, signal_error
 from eslang.runtime.hooks import Hooks, Listener
 from eslang.runtime.ticks import Ticks
+from eslang.texts import Texts
 
 if TYPE_CHECKING:
     from eslang.compile.toplevel import Compiler
+    from eslang.constructs.esl.doubles import Double
     from eslang.reader.reader import Reading
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -98,6 +101,7 @@ class Interpreter:
         image = self.image
         image.cell(PACKAGE).value = image.packages["COMMON-LISP"]
         image.cell(PACKAGE).special = True
+        image.packages["COMMON-LISP"].export(PACKAGE.name)
         for definition in DEFINITIONS:
             self._install_definition(definition)
         self.texts.load_library(prelude.stdlib_files())
@@ -193,12 +197,19 @@ class Interpreter:
         """Load a file of forms. Raises Failure, EslError, OSError."""
         self._check_open()
         with self.at_work():
-            source = _source(Path(path).read_bytes(), str(path))
-            package = self.image.cell(PACKAGE).value
-            try:
-                self.texts.load(source)
-            finally:
-                self.image.cell(PACKAGE).value = package
+            self.load_file(str(path), run_task)
+
+    def load_file(self, path: str, run: Callable[[Any], Value]) -> None:
+        """Load a file, its forms run by RUN. *PACKAGE* and *LOAD-PATHNAME* are as before afterwards."""
+        source = _source(Path(path).read_bytes(), path)
+        cells = self.image.cell(PACKAGE), self.image.cell(LOAD_PATHNAME)
+        before = [cell.value for cell in cells]
+        cells[1].value = String(path)
+        try:
+            self.texts.load(source, run)
+        finally:
+            for cell, value in zip(cells, before, strict=True):
+                cell.value = value
 
     def eval(self, text: str, name: str = "<eval>") -> Any:
         """The value of the last form in TEXT, as Python has it. Raises Failure, EslError."""
@@ -258,6 +269,12 @@ class Interpreter:
             return made
 
         return register if function is None else register(function)
+
+    def double(self, name: str) -> Double:
+        """Let a double stand in for a function, which need not be there (docs/how-to/test-a-plan.md)."""
+        from eslang.constructs.esl.doubles import Double
+
+        return Double(self.image.cell(self.symbol(name))).install()
 
     def to_python(self, value: Value) -> Any:
         """A Lisp value as Python has it."""

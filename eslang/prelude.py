@@ -13,7 +13,7 @@ LISP = (
     "predicates types coercions conses alists trees sets mapping sequences sequences_search sequences_change "
     "sequences_mapping sequences_sort hash_tables arrays vectors numbers numbers_division numbers_integers "
     "numbers_reals characters strings symbols packages streams stream_input output format reading structures places "
-    "conditions defining control"
+    "conditions defining control loading"
 ).split()
 ROOMS = [
     *(f"eslang.lisp.{name}" for name in LISP),
@@ -24,7 +24,7 @@ ROOMS = [
     "eslang.constructs.esl.doubles",
     "eslang.constructs.esl.documentation",
 ]
-FILES = "control places loop types packages structures conditions widgets recovery testing".split()
+FILES = "control places place-kinds loop-variables loop types packages structures conditions widgets recovery testing".split()
 
 
 def import_rooms() -> None:

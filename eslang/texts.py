@@ -17,6 +17,8 @@ from eslang.base.symbols import Value
 from eslang.compile import cache
 from eslang.runtime.failures import run_task
 
+Run = Callable[[FunctionType], Value]
+
 
 class Texts:
     """Loads texts into one interpreter."""
@@ -34,17 +36,19 @@ class Texts:
         self.note(source.text)
         return self._compile(source)[1]
 
-    def load(self, source: Source) -> None:
-        """Load a file: from the cache, if it is there."""
+    def load(self, source: Source, run: Run = run_task) -> None:
+        """Load a file: from the cache, if it is there. RUN runs each form, as a task unless given."""
         key = cache.digest(self.circumstances, source.name, source.text, self.session.image.package.name)
         kept = cache.fetch(key)
         self.note(source.text)
         if kept is not None:
             for entry in kept:
-                self._run_kept(entry)
+                self._run_kept(entry, run)
             return
-        compiler, _ = self._compile(source)
-        entry = cache.write_down(compiler) if compiler.is_pure() else None
+        before = self.circumstances
+        compiler, _ = self._compile(source, run)
+        alone = self.circumstances == before  # it loaded nothing else, whose macros it might use
+        entry = cache.write_down(compiler) if alone and compiler.is_pure() else None
         if entry is not None:
             cache.keep(key, [entry])
 
@@ -65,20 +69,20 @@ class Texts:
         if all(entry is not None for entry in entries):
             cache.keep(key, [entry for entry in entries if entry is not None])
 
-    def _compile(self, source: Source) -> tuple[Any, Value]:
+    def _compile(self, source: Source, run: Run = run_task) -> tuple[Any, Value]:
         """Compile and run a source form by form; its compiler, and the value of the last form."""
         compiler = self.session.compiler(source.name)
         result: Value = None
-        run = self._runner(compiler.unit.load)
+        run_code = self._runner(compiler.unit.load, run)
         for reading in self.session.readings(source):
-            result = compiler.run(reading.form, reading.spans, reading.span, run=run)
+            result = compiler.run(reading.form, reading.spans, reading.span, run=run_code)
         return compiler, result
 
-    def _runner(self, load: Callable[[Any], FunctionType]) -> Callable[[Any], Value]:
-        return lambda code: run_task(load(code))
+    def _runner(self, load: Callable[[Any], FunctionType], run: Run) -> Callable[[Any], Value]:
+        return lambda code: run(load(code))
 
-    def _run_kept(self, kept: cache.Kept) -> None:
+    def _run_kept(self, kept: cache.Kept, run: Run = run_task) -> None:
         """Run the top-level forms of a text that was kept."""
         code = cache.take_up(kept, self.session.image, self.session.support)
         for form in kept.codes:
-            run_task(code.load(form))
+            run(code.load(form))
