@@ -20,7 +20,7 @@ from eslang.base.render import render
 from eslang.tools.narrator import trace_line
 from eslang.tools.report import failure_text
 
-EXPECT = re.compile(r"^\s*;+ expect(?: (?P<kind>\w+))?:(?P<rest>.*)$", re.MULTILINE)
+EXPECT = re.compile(r";+ expect(?: (?P<kind>\w+))?:(?P<rest>.*)$", re.MULTILINE)
 KINDS = ("output", "trace", "failure", "error")
 
 

@@ -139,16 +139,15 @@ def program_results(path: Path, bench: Bench) -> Iterator[Result]:
         came.output, came.trace = "", []
         yield Result("loads", troubles(expected, came))
     for name in names:
-        yield Result(name.lower(), deftest_troubles(path, name, bench))
+        yield Result(name.name.lower(), deftest_troubles(path, name, bench))
 
 
-def test_names(stage: Stage) -> list[str]:
-    """The names of the tests that were defined, as the reader reads them."""
-    tests = stage.interp.image.cell(TESTS).value
-    return [f"{entry.car.package}::{entry.car.name}" for entry in tests] if tests is not None else []
+def test_names(stage: Stage) -> list[Symbol]:
+    """The names of the tests that were defined, in order."""
+    return [entry.car for entry in stage.interp.image.cell(TESTS).value or ()]
 
 
-def deftest_troubles(path: Path, name: str, bench: Bench) -> list[str]:
+def deftest_troubles(path: Path, name: Symbol, bench: Bench) -> list[str]:
     """Run the test NAME of the file PATH in an interpreter of its own."""
     came = Came()
     with bench.stage(came) as stage:
@@ -157,8 +156,7 @@ def deftest_troubles(path: Path, name: str, bench: Bench) -> list[str]:
             stage.interp.load(str(path))
             for double in stage.interp.image.cell(DOUBLES).value or ():
                 double.install()  # the file may have defined what the double stands in for
-            stage.take()
-            stage.interp.eval(f"(esl::%run-test '{name})")
+            stage.interp.call("esl::%run-test", name)
 
         return test_troubles(came.of(run))
 

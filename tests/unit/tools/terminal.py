@@ -15,7 +15,9 @@ from collections.abc import Sequence
 
 from unit.tools.command import environment
 
-CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|\x1b[()][A-Z0-9]|\x1b\][^\x07]*\x07|\x1b[=>78]|\x07|\x08|\x1b[^A-Za-z]*\Z")
+CONTROL = re.compile(
+    r"\x1b\[[0-9;?]*[A-Za-z]|\x1b[()][A-Z0-9]|\x1b\][^\x07]*\x07|\x1b[=>78]|\x07|\x08|\x1b[^A-Za-z]*\Z"
+)
 
 
 class Terminal:
@@ -26,7 +28,7 @@ class Terminal:
         fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 100, 0, 0))
         settings = environment(TERM="xterm", PROMPT_TOOLKIT_NO_CPR="1", **variables)
         self.running = subprocess.Popen(
-            command, stdin=slave, stdout=slave, stderr=slave, env=settings, start_new_session=True
+            command, preexec_fn=lambda: os.login_tty(slave), env=settings, pass_fds=(slave,)
         )
         os.close(slave)
         self.raw = ""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import signal
+import subprocess
+import sys
 import time
 from pathlib import Path
 
 import pytest
-from unit.tools.command import Ended, call, run, start
+from unit.tools.command import Ended, call, environment, run, start
 
 from eslang import __version__
 
@@ -145,7 +147,9 @@ def test_the_time_limit_ends_what_does_not_end_itself(form: str) -> None:
     assert "the time limit of 0.3 s is over" in err
 
 
-@pytest.mark.parametrize("form", ["(loop)", "(labels ((f (n) (when (> n 0) (f (- n 1)) (f (- n 1))))) (f 90))"])
+@pytest.mark.parametrize(
+    "form", ["(loop)", "(labels ((f (n) (when (> n 0) (f (- n 1)) (f (- n 1))))) (f 90))"]
+)
 def test_ctrl_c_ends_a_plan_after_its_cleanups(form: str) -> None:
     body = f"(with-cleanup-procedure (princ :cleaned) (princ :begun) (terpri) {form})"
     with start("run", "--quiet", "-e", body) as running:
@@ -192,15 +196,17 @@ def test_a_bug_of_ours_asks_to_be_sent(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "This is a bug in eslang" in err and "we are wrong" in err
 
 
-def test_the_run_command_imports_no_editor_and_no_reader_of_options() -> None:
+def test_a_plan_that_is_compiled_already_starts_with_few_imports(tmp_path: Path) -> None:
+    plan = written(tmp_path, "(princ 1)")
     code = (
-        "import sys; from eslang.tools.cli import main; main(['-e', '1']); "
-        "print([m for m in ('prompt_toolkit', 'argparse', 'asyncio', 'json', 'logging') if m in sys.modules])"
+        f"import sys; from eslang.tools.cli import main; main(['run', {plan!r}]); "
+        "print([m for m in ('prompt_toolkit', 'lark', 'argparse', 'asyncio', 'json') if m in sys.modules])"
     )
-    import subprocess
-    import sys
-
-    from unit.tools.command import environment
-
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment())
+    for _ in range(2):
+        done = subprocess.run(
+            [sys.executable, "-c", code],
+            capture_output=True,
+            text=True,
+            env=environment(XDG_CACHE_HOME=str(tmp_path)),
+        )
     assert done.stdout == "1\n[]\n"
