@@ -1,0 +1,101 @@
+"""How the benchmarks measure: contenders take turns, medians are compared.
+
+The machine is shared and changes its speed, so a time means nothing by itself.
+In each round every contender of a work runs once, for about as long as the
+others; what is told is the ratio of the medians of one run.
+"""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Sequence
+from statistics import median
+from time import perf_counter
+from typing import NamedTuple
+
+LEAST = 0.02  # seconds that one sample takes, at least
+
+Run = Callable[[], object]
+
+
+class Peer(NamedTuple):
+    """What eslang is compared with: how it does the work, and the greatest ratio that is accepted."""
+
+    name: str
+    run: Run | None  # None: not installed here
+    limit: float | None  # None: measured for interest
+    per: int = 1  # how often one call of `run` does the work
+
+
+class Work(NamedTuple):
+    """One piece of work, how eslang does it, and how its peers do."""
+
+    name: str
+    ours: Run
+    peers: Sequence[Peer]
+    per: int = 1  # how often one call of `ours` does the work
+    same: bool = True  # whether all must come to the same result
+
+
+class Row(NamedTuple):
+    """One line of the table: medians in seconds, for the work done once."""
+
+    work: str
+    peer: str
+    ours: float
+    theirs: float | None
+    limit: float | None
+
+    @property
+    def ratio(self) -> float | None:
+        """How many times as long as the peer eslang takes."""
+        return None if self.theirs is None else self.ours / self.theirs
+
+    @property
+    def verdict(self) -> str:
+        """Whether the limit was met."""
+        if self.ratio is None:
+            return "not installed, skipped"
+        if self.limit is None:
+            return "no limit"
+        if self.ratio <= self.limit:
+            return "met"
+        return f"missed by {self.ratio / self.limit - 1:.0%}"
+
+
+def measure(work: Work, rounds: int) -> list[Row]:
+    """Let eslang and its peers do WORK in turn; a row for each peer."""
+    present = [peer for peer in work.peers if peer.run is not None]
+    runs = [(work.ours, work.per), *((peer.run, peer.per) for peer in present if peer.run is not None)]
+    results = [run() for run, _ in runs]
+    if work.same and any(result != results[0] for result in results):
+        raise AssertionError(f"{work.name}: the contenders disagree: {results}")
+    counts = [repetitions(run) for run, _ in runs]
+    samples: list[list[float]] = [[] for _ in runs]
+    for _ in range(rounds):
+        for number, (run, per) in enumerate(runs):
+            samples[number].append(sample(run, counts[number]) / per)
+    ours, *theirs = (median(times) for times in samples)
+    times = dict(zip((peer.name for peer in present), theirs, strict=True))
+    return [Row(work.name, peer.name, ours, times.get(peer.name), peer.limit) for peer in work.peers]
+
+
+def repetitions(run: Run) -> int:
+    """How often RUN is to be called for a sample that is long enough."""
+    count = 1
+    while sample(run, count) * count < LEAST and count < 1 << 20:
+        count *= 2
+    return count
+
+
+def sample(run: Run, count: int) -> float:
+    """The seconds that one of COUNT calls of RUN takes."""
+    gc.collect()
+    gc.disable()
+    try:
+        begin = perf_counter()
+        for _ in range(count):
+            run()
+        return (perf_counter() - begin) / count
+    finally:
+        gc.enable()
