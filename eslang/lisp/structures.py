@@ -182,7 +182,7 @@ def structure_copier(name: Value, copier: Value) -> Value:
 
 @function("(copy-structure structure)")
 def copy_structure(structure: Value) -> Value:
-    """Return a structure of the type of STRUCTURE, with the same things in its slots.
+    """Return a copy of STRUCTURE, with the same things in its slots.
 
     Fails: with :type-error if STRUCTURE is none.
     """
