@@ -23,8 +23,8 @@ def main(words: list[str]) -> int:
     for name in words or ROOMS:
         for work in ROOMS[name].works():
             rows += measure(work, rounds)
-    print(f"Python {platform.python_version()}, medians of {rounds} interleaved rounds\n")
-    print(table(rows))
+    sys.stdout.write(f"Python {platform.python_version()}, medians of {rounds} interleaved rounds\n\n")
+    sys.stdout.write(table(rows) + "\n")
     return 1 if any(row.verdict.startswith("missed") for row in rows) else 0
 
 
@@ -32,7 +32,10 @@ def table(rows: list[Row]) -> str:
     """ROWS as a Markdown table."""
     cells = [HEAD, *map(cells_of, rows)]
     widths = [max(len(line[column]) for line in cells) for column in range(len(HEAD))]
-    lines = ["| " + " | ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)) + " |" for line in cells]
+    lines = [
+        "| " + " | ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)) + " |"
+        for line in cells
+    ]
     lines.insert(1, "|" + "|".join("-" * (width + 2) for width in widths) + "|")
     return "\n".join(lines)
 

@@ -22,7 +22,9 @@ def works() -> Iterator[Work]:
         environment = {**os.environ, "PYTHONPATH": str(ROOT), "ESLANG_CACHE": str(Path(folder) / "cache")}
 
         def run(*words: str) -> int:
-            return subprocess.run([sys.executable, *words], env=environment, stdout=subprocess.DEVNULL).returncode
+            return subprocess.run(
+                [sys.executable, *words], env=environment, stdout=subprocess.DEVNULL
+            ).returncode
 
         run("-m", "eslang", "run", str(plan))  # fills the cache
         yield Work(

@@ -30,7 +30,9 @@ def expected(plan: Path) -> str:
 
 @every_plan
 @pytest.mark.parametrize("seed", [0, 1, 1996])
-def test_a_plan_prints_what_stands_beside_it(plan: Path, seed: int, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_plan_prints_what_stands_beside_it(
+    plan: Path, seed: int, capsys: pytest.CaptureFixture[str]
+) -> None:
     code = main(["run", "--clock", "virtual", "--seed", str(seed), str(plan)])
     printed = capsys.readouterr()
     assert printed.out == expected(plan)
@@ -64,7 +66,9 @@ def test_the_widget_plan_prints_the_papers_traces() -> None:
     printed = "".join(
         line
         for name in TRANSCRIPTS
-        for line in (ROOT / "tests" / "transcripts" / name).read_text(encoding="utf-8").splitlines(keepends=True)
+        for line in (ROOT / "tests" / "transcripts" / name)
+        .read_text(encoding="utf-8")
+        .splitlines(keepends=True)
         if not line.startswith(";")
     )
     definition = re.compile(r"^\? \(defun .*?^RECOVERY-DEMO-1\n", re.M | re.S)

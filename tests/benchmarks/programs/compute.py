@@ -1,4 +1,4 @@
-"""What the compute rows measure, as a Python programmer writes it; compute.esl and compute.hy say the same."""
+"""What the compute rows measure, as a Python programmer writes it."""
 
 from __future__ import annotations
 
