@@ -43,11 +43,14 @@ class Leave(Exception):
 class Conversation:
     """One interpreter, what it last answered, and where complaints go."""
 
-    def __init__(self, interp: Any, errors: Writes | None = None, *, echo: bool = False) -> None:
+    def __init__(
+        self, interp: Any, errors: Writes | None = None, *, echo: bool = False, colour: bool = False
+    ) -> None:
         self.interp = interp
         self.output = interp.output
         self.errors = errors  # None: among the answers, as in a transcript
         self.echo = echo  # print the forms: the input is not seen otherwise
+        self.colour = colour  # of diagnostics
         self.prompted = False  # the prompt stands there, waiting
         self.failure: Failure | None = None  # the last one that nothing answered
         self.mistakes = 0  # forms that were no right program
@@ -129,7 +132,7 @@ class Conversation:
     def complain(self, error: EslError) -> None:
         """Say what is wrong with a program."""
         self.mistakes += 1
-        self.write_error(render(error.diagnostic))
+        self.write_error(render(error.diagnostic, self.colour))
 
     def write_error(self, text: str) -> None:
         """Write a diagnostic, on a line of its own."""

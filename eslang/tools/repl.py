@@ -55,9 +55,9 @@ def repl(chosen: Chosen) -> int:
 
 def opened_conversation(interp: Any, *, echo: bool) -> Conversation:
     """A conversation that knows the words beginning with a colon."""
-    from eslang.tools.report import why
+    from eslang.tools.report import wants_colour, why
 
-    conversation = Conversation(interp, sys.stderr, echo=echo)
+    conversation = Conversation(interp, sys.stderr, echo=echo, colour=wants_colour(sys.stderr))
 
     def tell_why(conversation: Conversation) -> None:
         conversation.output.write(why(conversation.failure))

@@ -6,7 +6,9 @@ raised, which recovery procedures were asked, and the Lisp stack.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
+from typing import TextIO
 
 from eslang.base.diagnostics import Diagnostic, Label
 from eslang.base.failure import Failure
@@ -32,7 +34,12 @@ def place_of(failure: Failure) -> str:
     return str(story.place) if story is not None and story.place is not None else ""
 
 
-def failure_report(failure: Failure) -> str:
+def wants_colour(stream: TextIO) -> bool:
+    """True if STREAM is a terminal, and nobody asked for plain text (no-color.org)."""
+    return stream.isatty() and not os.environ.get("NO_COLOR")
+
+
+def failure_report(failure: Failure, colour: bool = False) -> str:
     """FAILURE in a few lines: where it was raised, with what, and who called whom."""
     story: Story | None = failure.story
     place = story.place if story is not None else None
@@ -42,7 +49,7 @@ def failure_report(failure: Failure) -> str:
     if not notes:
         return f"failure: {message}"
     diagnostic = Diagnostic("failure", message, labels, notes=tuple(notes), severity="failure")
-    return render(diagnostic)
+    return render(diagnostic, colour)
 
 
 def span_of(place: Place) -> Span:

@@ -81,11 +81,14 @@ def outcome(interp: Any, work: Callable[[], None]) -> int:
         work()
         code = 0
     except Failure as failure:
-        from eslang.tools.report import failure_report
+        from eslang.tools.report import failure_report, wants_colour
 
-        code = complain(interp, failure_report(failure), FAILED)
+        code = complain(interp, failure_report(failure, wants_colour(sys.stderr)), FAILED)
     except EslError as error:
-        code = complain(interp, str(error), WRONG)
+        from eslang.base.render import render
+        from eslang.tools.report import wants_colour
+
+        code = complain(interp, render(error.diagnostic, wants_colour(sys.stderr)), WRONG)
     except Stop as stop:
         if not stop.code:
             return 0  # nobody reads the output any more, or (quit)
