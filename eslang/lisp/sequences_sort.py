@@ -47,7 +47,9 @@ def _order(values: list[Value], precedes: Any) -> list[int]:
 
 def _merge(values: list[Value], left: list[int], right: list[int], precedes: Any) -> list[int]:
     """The places LEFT and RIGHT, each in order, in one order; LEFT first where neither precedes."""
-    if not left or not right or precedes(values[right[0]], values[left[-1]]) is None:
+    if not left or not right:
+        return left + right
+    if len(left) > 1 and precedes(values[right[0]], values[left[-1]]) is None:
         return left + right
     merged = []
     i = j = 0

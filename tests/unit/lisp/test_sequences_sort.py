@@ -52,6 +52,12 @@ def test_what_is_in_order_needs_few_comparisons() -> None:
     assert len(asked) < 1000
 
 
+def test_two_elements_are_compared_once() -> None:
+    asked: list[tuple[int, int]] = []
+    call("sort", [2, 1], lambda x, y: asked.append((x, y)))
+    assert asked == [(1, 2)]
+
+
 def test_what_cannot_be_compared_fails() -> None:
     with fails("TYPE-ERROR"):
         call("sort", [1, "a"], fn("<"))
