@@ -199,6 +199,18 @@ for _name, _letters in (("FIRST", "A"), ("REST", "D"), ("SECOND", "AD"), ("THIRD
     _path(_name, _letters)
 
 
+def _sure_part(name: str, attribute: str) -> None:
+    """The car or cdr of what DOLIST or LOOP knows is no NIL; what is no cons is a type error."""
+
+    @_inline(name, 1, 1, VALUE)
+    def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
+        return e.attribute(arguments[0], attribute)
+
+
+_sure_part("%CAR", "car")
+_sure_part("%CDR", "cdr")
+
+
 @_inline("CONS", 2, 2, VALUE)
 def _cons(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return e.call_support("Cons", *arguments)

@@ -14,6 +14,7 @@ from eslang.base.running import running
 from eslang.base.sameness import is_eql
 from eslang.base.symbols import Symbol, T, Value
 from eslang.compile.registry import function
+from eslang.lisp.conses import car, cdr
 
 OURS = ("COMMON-LISP", "ESL", "SCS")
 
@@ -84,6 +85,11 @@ def collect(tail: Value, item: Value) -> Value:
     """Put ITEM behind the cons TAIL; return the new last cons. For LOOP."""
     cell = tail.cdr = Cons(item, None)
     return cell
+
+
+# What DOLIST and LOOP say of what is no NIL: open-coded without a test for it.
+function("(%car cons)")(car)
+function("(%cdr cons)")(cdr)
 
 
 @function("(%wrong-type datum expected operator)")
