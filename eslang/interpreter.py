@@ -130,7 +130,11 @@ class Interpreter:
 
     def defined(self, symbol: Symbol) -> None:
         """Make a name that the library defined external, unless it begins with %."""
-        if self._library and not symbol.name.startswith("%") and symbol.package in ("COMMON-LISP", "ESL", "SCS"):
+        if (
+            self._library
+            and not symbol.name.startswith("%")
+            and symbol.package in ("COMMON-LISP", "ESL", "SCS")
+        ):
             self.image.packages[symbol.package].export(symbol.name)
 
     def compiler(self, name: str) -> Compiler:
@@ -155,7 +159,8 @@ class Interpreter:
     def is_special_form(self, symbol: Value) -> bool:
         """True if SYMBOL names a special form."""
         return any(
-            d.kind == "special form" and d.name == symbol.name and d.package == symbol.package for d in DEFINITIONS
+            d.kind == "special form" and d.name == symbol.name and d.package == symbol.package
+            for d in DEFINITIONS
         )
 
     # --- running ---------------------------------------------------------------
@@ -251,7 +256,9 @@ class Interpreter:
     @overload
     def primitive(self, *, name: str | None = ..., signature: str | None = ...) -> Callable[[F], F]: ...
 
-    def primitive(self, function: Any = None, *, name: str | None = None, signature: str | None = None) -> Any:
+    def primitive(
+        self, function: Any = None, *, name: str | None = None, signature: str | None = None
+    ) -> Any:
         """Make a Python function a Lisp function; name and signature from Python's unless given.
 
         Raising Failure in it is (fail ...); any other error is a :python-error failure.
@@ -261,7 +268,9 @@ class Interpreter:
             definition = make_primitive(made, name, signature)
             symbol = self.symbol(definition.name)
             if symbol is None or symbol.package == "COMMON-LISP":
-                raise error_at("redefined-special-form", f"`{definition.name.lower()}` is Common Lisp's", None)
+                raise error_at(
+                    "redefined-special-form", f"`{definition.name.lower()}` is Common Lisp's", None
+                )
             cell = self.image.cell(symbol)
             definition.package = symbol.package or ""
             cell.function, cell.definition, cell.macro = definition.implementation, definition, None

@@ -9,12 +9,43 @@ from __future__ import annotations
 import importlib
 from pathlib import Path
 
-LISP = (
-    "predicates types coercions conses alists trees sets mapping sequences sequences_search sequences_change "
-    "sequences_mapping sequences_sort hash_tables arrays vectors numbers numbers_division numbers_integers "
-    "numbers_reals characters strings symbols packages streams stream_input output format reading structures places "
-    "conditions defining control loading"
-).split()
+LISP = [
+    "predicates",
+    "types",
+    "coercions",
+    "conses",
+    "alists",
+    "trees",
+    "sets",
+    "mapping",
+    "sequences",
+    "sequences_search",
+    "sequences_change",
+    "sequences_mapping",
+    "sequences_sort",
+    "hash_tables",
+    "arrays",
+    "vectors",
+    "numbers",
+    "numbers_division",
+    "numbers_integers",
+    "numbers_reals",
+    "characters",
+    "strings",
+    "symbols",
+    "packages",
+    "streams",
+    "stream_input",
+    "output",
+    "format",
+    "reading",
+    "structures",
+    "places",
+    "conditions",
+    "defining",
+    "control",
+    "loading",
+]
 ROOMS = [
     *(f"eslang.lisp.{name}" for name in LISP),
     "eslang.constructs.esl.contingency",
@@ -24,7 +55,20 @@ ROOMS = [
     "eslang.constructs.esl.doubles",
     "eslang.constructs.esl.documentation",
 ]
-FILES = "control places place-kinds loop-variables loop types packages structures conditions widgets recovery testing".split()
+FILES = [
+    "control",
+    "places",
+    "place-kinds",
+    "loop-variables",
+    "loop",
+    "types",
+    "packages",
+    "structures",
+    "conditions",
+    "widgets",
+    "recovery",
+    "testing",
+]
 
 
 def import_rooms() -> None:

@@ -15,7 +15,6 @@ from eslang.base.symbols import Keyword, Symbol, Value, lisp_name
 from eslang.base.text import String
 from eslang.compile.registry import ESL, Definition
 from eslang.compile.signatures import Arity, arity, read_signature
-from eslang.compile.support import reenter
 from eslang.runtime import failures
 from eslang.runtime.errors import python_failure
 
@@ -67,7 +66,9 @@ def _keywords(names: list[Value], values: list[Any], expected: Arity) -> dict[st
     taken: dict[str, Any] = {}
     for index in range(0, len(names), 2):
         keyword = names[index]
-        known = isinstance(keyword, Keyword) and (expected.keywords is None or keyword.name in expected.keywords)
+        known = isinstance(keyword, Keyword) and (
+            expected.keywords is None or keyword.name in expected.keywords
+        )
         if not known:
             raise simple_error("this function has no such keyword argument:", keyword)
         taken.setdefault(keyword.name.lower().replace("-", "_"), values[index + 1])
@@ -76,7 +77,9 @@ def _keywords(names: list[Value], values: list[Any], expected: Arity) -> dict[st
 
 def _positional(signature: str) -> int | None:
     """How many parameters stand before &key; None if there is no &key."""
-    elements = [element.lower() if isinstance(element, str) else element for element in read_signature(signature)[1:]]
+    elements = [
+        element.lower() if isinstance(element, str) else element for element in read_signature(signature)[1:]
+    ]
     if "&key" not in elements:
         return None
     return sum(1 for element in elements[: elements.index("&key")] if element != "&optional")

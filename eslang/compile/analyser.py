@@ -34,11 +34,11 @@ from eslang.compile.core import (
 from eslang.compile.expand import expand_macro
 from eslang.compile.inline import INLINE
 from eslang.compile.registry import Definition
-from eslang.compile.scope import LocalMacro, Scope, Special, SymbolMacro
+from eslang.compile.scope import LocalMacro, Scope, SymbolMacro
 from eslang.compile.signatures import arity, count_arguments, usage
 
 LAMBDA = Symbol.intern("LAMBDA", "COMMON-LISP")
-DEEPEST = 10  # Python blocks in one procedure; each special form adds at most 3 of the 20 allowed
+DEEPEST = 10  # Python blocks in one procedure, of the 20 that Python allows
 EXIT = Symbol.uninterned("EXIT")
 
 
@@ -69,6 +69,7 @@ class Analyser:
         self.compile_expander = compile_expander  # a MACROLET function from its LAMBDA form
         self.spans = spans
         self.span = span  # of the innermost form that has one
+        self.block_cost = 1  # how many Python blocks a block or tagbody is taken for: 1, or 3 at most
         self.names: dict[str, int] = {}
         self.definition: str | None = None  # the definition around the form, for `= in`
         self.uses = uses

@@ -62,7 +62,9 @@ def bindings_of(analyser: Analyser, lst: Value, what: str) -> list[tuple[Symbol,
         rest = rest.cdr
     if rest is not None:
         analyser.fail(
-            "malformed-binding", f"`{prin1(rest)}` is no list of bindings", hint=f"write `({what} ((name form)) ...)`"
+            "malformed-binding",
+            f"`{prin1(rest)}` is no list of bindings",
+            hint=f"write `({what} ((name form)) ...)`",
         )
     return result
 
@@ -108,7 +110,11 @@ def let_star(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 
 
 def sequential(
-    analyser: Analyser, bindings: list[tuple[Symbol, Cons]], declarations: list[Cons], forms: Value, scope: Scope
+    analyser: Analyser,
+    bindings: list[tuple[Symbol, Cons]],
+    declarations: list[Cons],
+    forms: Value,
+    scope: Scope,
 ) -> Node:
     """The node of LET*: each binding in the scope of those before it."""
     specials = declared(declarations, SPECIAL_NAME)
@@ -177,7 +183,9 @@ def multiple_value_bind(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     while rest.__class__ is Cons:
         symbol = rest.car
         if not isinstance(symbol, Symbol) or isinstance(symbol, Keyword):
-            analyser.fail("malformed-binding", f"`{prin1(symbol)}` is no variable", analyser.spans.element(rest))
+            analyser.fail(
+                "malformed-binding", f"`{prin1(symbol)}` is no variable", analyser.spans.element(rest)
+            )
         if is_special(analyser, symbol, specials):
             waiting = analyser.unnamed_variable(symbol, inner)
             waiting.mentioned = True

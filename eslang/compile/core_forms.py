@@ -78,7 +78,9 @@ def cond(analyser: Analyser, form: Cons, scope: Scope) -> Node:
         clause = rest.car
         analyser.span = analyser.spans.of(clause) or analyser.spans.element(rest) or around
         if clause.__class__ is not Cons:
-            analyser.fail("malformed-form", f"`{prin1(clause)}` is no clause of `cond`", hint="write `(test form...)`")
+            analyser.fail(
+                "malformed-form", f"`{prin1(clause)}` is no clause of `cond`", hint="write `(test form...)`"
+            )
         test = analyser.nodes(Cons(clause.car, None), scope)[0]
         parts.append((test, analyser.body(clause.cdr, scope) if clause.cdr is not None else None))
         analyser.span = around
@@ -180,7 +182,12 @@ def split_body(forms: Value, *, documented: bool = False) -> tuple[list[Cons], s
 def declared(declarations: list[Cons], names: set[Symbol] | Symbol) -> set[Symbol]:
     """The variables that DECLARATIONS say one of NAMES of."""
     wanted = {names} if isinstance(names, Symbol) else names
-    return {symbol for declaration in declarations if declaration.car in wanted for symbol in items(declaration.cdr)}
+    return {
+        symbol
+        for declaration in declarations
+        if declaration.car in wanted
+        for symbol in items(declaration.cdr)
+    }
 
 
 def declare_specials(analyser: Analyser, declarations: list[Cons], scope: Scope) -> None:

@@ -32,7 +32,9 @@ def _name(analyser: Analyser, form: Cons, what: str) -> Symbol:
     """The name that FORM defines; it must be free to be defined."""
     name = form.cdr.car
     if not isinstance(name, Symbol) or isinstance(name, Keyword) or name is T:
-        analyser.fail("malformed-form", f"`{prin1(name)}` cannot name a {what}", analyser.spans.element(form.cdr))
+        analyser.fail(
+            "malformed-form", f"`{prin1(name)}` cannot name a {what}", analyser.spans.element(form.cdr)
+        )
     if what != "variable" and name in analyser.image.special_forms:
         analyser.fail(
             "redefined-special-form",
@@ -83,7 +85,9 @@ def defmacro(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     expander = macro_lambda(analyser, name, lst, forms)
     node = function_node(analyser, f"macro {name.name}", expander.cdr.car, expander.cdr.cdr, scope)
     analyser.definition = around
-    record = _record(analyser, f"({prin1(name).lower()} {_macro_parameters(lst)}".rstrip() + ")", documentation)
+    record = _record(
+        analyser, f"({prin1(name).lower()} {_macro_parameters(lst)}".rstrip() + ")", documentation
+    )
     return Call(analyser.span, DEFINE_MACRO, [Const(analyser.span, name), node, *record])
 
 

@@ -7,14 +7,14 @@ A pattern becomes LET* bindings that walk the list with a few small functions
 from __future__ import annotations
 
 from eslang.base.lists import Cons, from_items, lisp_list
+from eslang.base.printer import prin1
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.analyser import LAMBDA, Analyser
+from eslang.compile.core import Node
 from eslang.compile.core_forms import split_body
 from eslang.compile.lambda_lists import BadLambdaList, LambdaList, parse_lambda_list
 from eslang.compile.registry import special_form
-from eslang.compile.core import Node
 from eslang.compile.scope import Scope
-from eslang.base.printer import prin1
 
 
 def _cl(name: str) -> Symbol:

@@ -141,4 +141,3 @@ class Emitter(StatementEmitter):
         self.put(self.assign_all([key.variable.name for key in keys], taken))
         for key in keys:
             self.default(key, self.name(key.variable.name))
-

@@ -261,7 +261,9 @@ class StatementEmitter(ExpressionEmitter):
                 reached = self.compare(self.name(position), ast.LtE(), self.constant(number))
                 body = self.body_of(lambda segment=segment: self.run(segment, EFFECT))  # type: ignore[misc]
                 if body:
-                    self.put(self.if_(reached, body, []) if number + 1 < len(node.segments) else body_of_last(body))
+                    self.put(
+                        self.if_(reached, body, []) if number + 1 < len(node.segments) else body_of_last(body)
+                    )
             self.put(self.break_())
 
         def body_of_last(body: list[ast.stmt]) -> ast.stmt:
@@ -269,7 +271,9 @@ class StatementEmitter(ExpressionEmitter):
 
         def catching() -> None:
             name = self.temporary()
-            wrong = self.compare(self.attribute(self.name(name), "target"), ast.IsNot(), self.read(target.token))
+            wrong = self.compare(
+                self.attribute(self.name(name), "target"), ast.IsNot(), self.read(target.token)
+            )
             caught = [
                 self.if_(wrong, [self.raise_()], []),
                 self.assign(position, self.attribute(self.name(name), "value")),

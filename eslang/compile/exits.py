@@ -51,9 +51,9 @@ def named_block(analyser: Analyser, name: Symbol | None, forms: Value, scope: Sc
     target = analyser.exit(name, scope)
     inner = scope.inner()
     inner.blocks[name] = target
-    scope.procedure.nesting += 3
+    scope.procedure.nesting += analyser.block_cost
     body = analyser.body(forms, inner)
-    scope.procedure.nesting -= 3
+    scope.procedure.nesting -= analyser.block_cost
     return Block(analyser.span, target, body) if target.jumps or target.escapes else body
 
 
@@ -103,12 +103,13 @@ def tagbody(analyser: Analyser, form: Cons, scope: Scope) -> Node:
         rest = rest.cdr
     loops = 1 if len(parts) > 1 else 0
     scope.procedure.loops += loops
-    scope.procedure.nesting += 3 * loops
+    scope.procedure.nesting += analyser.block_cost * loops
     segments = [
-        analyser.body_of([analyser.nodes(Cons(holder.car, None), inner)[0] for holder in part]) for part in parts
+        analyser.body_of([analyser.nodes(Cons(holder.car, None), inner)[0] for holder in part])
+        for part in parts
     ]
     scope.procedure.loops -= loops
-    scope.procedure.nesting -= 3 * loops
+    scope.procedure.nesting -= analyser.block_cost * loops
     return Tagbody(analyser.span, target, segments)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from eslang.base.control import Failed
-from eslang.base.control import Failed
 from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
 from eslang.base.image import Image

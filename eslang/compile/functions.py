@@ -50,7 +50,9 @@ class _Parameters:
     def bind(self, symbol: Symbol) -> Variable:
         """The variable of a parameter; a special one is bound dynamically in the body."""
         if symbol in self.seen:
-            self.analyser.fail("malformed-lambda-list", f"the parameter `{prin1(symbol).lower()}` stands here twice")
+            self.analyser.fail(
+                "malformed-lambda-list", f"the parameter `{prin1(symbol).lower()}` stands here twice"
+            )
         self.seen.add(symbol)
         if not is_special(self.analyser, symbol, self.specials):
             return self.analyser.variable(symbol, self.scope)
@@ -68,7 +70,14 @@ class _Parameters:
 
 
 def function_node(
-    analyser: Analyser, name: str, lst: Value, forms: Value, scope: Scope, block: Symbol | None = None, *, named: bool = False
+    analyser: Analyser,
+    name: str,
+    lst: Value,
+    forms: Value,
+    scope: Scope,
+    block: Symbol | None = None,
+    *,
+    named: bool = False,
 ) -> Lambda:
     """The node of a function with lambda list LST and body FORMS, in a block called BLOCK if `named`."""
     parts = checked_lambda_list(analyser, lst)
@@ -141,9 +150,13 @@ def function(analyser: Analyser, form: Cons, scope: Scope) -> Node:
         return Local(analyser.span, found)
     symbol = setf or name
     if isinstance(found, LocalMacro) or (
-        setf is None and not hasattr(analyser.image.cell(symbol), "function") and _is_operator(analyser, symbol)
+        setf is None
+        and not hasattr(analyser.image.cell(symbol), "function")
+        and _is_operator(analyser, symbol)
     ):
-        analyser.fail("bad-operator", f"`{prin1(symbol).lower()}` is no function, but a macro or special form")
+        analyser.fail(
+            "bad-operator", f"`{prin1(symbol).lower()}` is no function, but a macro or special form"
+        )
     if setf is None:
         analyser.use("function", symbol, None, form, scope)
     return FunctionOf(analyser.span, symbol, setf=setf is not None)
@@ -159,7 +172,12 @@ NAMED_LAMBDA = Symbol.intern("%NAMED-LAMBDA", "COMMON-LISP")
 
 def setf_name(name: Value) -> Symbol | None:
     """The symbol of a function name (setf symbol); None for any other name."""
-    if name.__class__ is Cons and name.car is SETF and name.cdr.__class__ is Cons and isinstance(name.cdr.car, Symbol):
+    if (
+        name.__class__ is Cons
+        and name.car is SETF
+        and name.cdr.__class__ is Cons
+        and isinstance(name.cdr.car, Symbol)
+    ):
         symbol: Symbol = name.cdr.car
         return symbol
     return None
@@ -173,8 +191,10 @@ def _local_definitions(analyser: Analyser, form: Cons) -> list[tuple[Value, Valu
         definition = rest.car
         name = definition.car if definition.__class__ is Cons else None
         setf = setf_name(name)
-        if definition.__class__ is not Cons or definition.cdr.__class__ is not Cons or not (
-            isinstance(name, Symbol) or setf is not None
+        if (
+            definition.__class__ is not Cons
+            or definition.cdr.__class__ is not Cons
+            or not (isinstance(name, Symbol) or setf is not None)
         ):
             analyser.fail(
                 "malformed-binding",
@@ -182,7 +202,9 @@ def _local_definitions(analyser: Analyser, form: Cons) -> list[tuple[Value, Valu
                 analyser.spans.of(definition) or analyser.spans.element(rest),
                 hint="write `(name (parameter...) form...)`",
             )
-        result.append(((SETF, setf) if setf is not None else name, setf or name, definition.cdr.car, definition))
+        result.append(
+            ((SETF, setf) if setf is not None else name, setf or name, definition.cdr.car, definition)
+        )
         rest = rest.cdr
     return result
 
@@ -199,7 +221,13 @@ def _local_functions(analyser: Analyser, form: Cons, scope: Scope, *, recursive:
     for (_, name, lst, definition), variable in zip(definitions, variables, strict=True):
         analyser.span = analyser.spans.of(definition) or around
         node = function_node(
-            analyser, name.name.lower(), lst, definition.cdr.cdr, inner if recursive else scope, name, named=True
+            analyser,
+            name.name.lower(),
+            lst,
+            definition.cdr.cdr,
+            inner if recursive else scope,
+            name,
+            named=True,
         )
         functions.append((variable, node))
     analyser.span = around
@@ -247,5 +275,3 @@ def parameter_names(lst: Value) -> str:
             element = element.car
         shown.append(prin1(element.car if element.__class__ is Cons else element).lower())
     return " ".join(shown)
-
-

@@ -40,7 +40,9 @@ class InlineFunction(NamedTuple):
 INLINE: dict[str, InlineFunction] = {}
 
 
-def _inline(name: str, least: int, most: int | None, kind: str, *, simple: bool = False) -> Callable[[Emit], Emit]:
+def _inline(
+    name: str, least: int, most: int | None, kind: str, *, simple: bool = False
+) -> Callable[[Emit], Emit]:
     def register(emit: Emit) -> Emit:
         INLINE[name] = InlineFunction(least, most, kind, emit, simple)
         return emit
@@ -134,7 +136,8 @@ def _minusp(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.exp
 def _by_identity(nodes: list[Node]) -> bool:
     """True if one of the nodes is a constant that nothing but itself is EQUAL to."""
     return any(
-        isinstance(node, Const) and (node.value is None or isinstance(node.value, (Symbol, Character))) for node in nodes
+        isinstance(node, Const) and (node.value is None or isinstance(node.value, (Symbol, Character)))
+        for node in nodes
     )
 
 
@@ -195,7 +198,13 @@ def _path(name: str, letters: str) -> None:
 
 for _letters in ("A", "D", "AA", "AD", "DA", "DD", "ADD", "DDD", "ADDD"):
     _path(f"C{_letters}R", _letters)
-for _name, _letters in (("FIRST", "A"), ("REST", "D"), ("SECOND", "AD"), ("THIRD", "ADD"), ("FOURTH", "ADDD")):
+for _name, _letters in (
+    ("FIRST", "A"),
+    ("REST", "D"),
+    ("SECOND", "AD"),
+    ("THIRD", "ADD"),
+    ("FOURTH", "ADDD"),
+):
     _path(_name, _letters)
 
 

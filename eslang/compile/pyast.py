@@ -157,7 +157,12 @@ class Builder:
         return ast.Nonlocal(names, **self.at)
 
     def define(
-        self, name: str, parameters: list[str], defaults: list[ast.expr], rest: str | None, body: list[ast.stmt]
+        self,
+        name: str,
+        parameters: list[str],
+        defaults: list[ast.expr],
+        rest: str | None,
+        body: list[ast.stmt],
     ) -> ast.stmt:
         arguments = ast.arguments(
             posonlyargs=[],

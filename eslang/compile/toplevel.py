@@ -24,6 +24,7 @@ from eslang.compile.scope import LocalMacro, Scope
 from eslang.compile.unit import Unit
 
 ROOMS = (core_forms, bindings, exits, functions, destructuring, definitions, backquote)
+MOST_BLOCKS = 3  # Python blocks that one block or tagbody can become
 PROGN, EVAL_WHEN = (Symbol.intern(name, "COMMON-LISP") for name in ("PROGN", "EVAL-WHEN"))
 
 
@@ -83,7 +84,11 @@ class Compiler:
 
     def _expanded(self, form: Value, spans: Spans, span: Span | None) -> Value:
         """FORM with its macros expanded at the head, so that a PROGN shows."""
-        while form.__class__ is Cons and isinstance(form.car, Symbol) and form.car not in self.image.special_forms:
+        while (
+            form.__class__ is Cons
+            and isinstance(form.car, Symbol)
+            and form.car not in self.image.special_forms
+        ):
             expander = self.image.cell(form.car).macro
             if expander is None:
                 break
@@ -102,9 +107,16 @@ class Compiler:
         return analyser, Scope(None, analyser.procedure("top level", None), analyser)
 
     def _code(self, form: Value, spans: Spans, span: Span | None, many: bool) -> CodeType:
+        """The code of a form; a second attempt takes every block for as deep as it can be."""
+        mark = self.unit.mark()
+        try:
+            analyser, scope = self._scope(spans, span)
+            return self.unit.top(analyser.node(form, scope), scope.procedure, many=many)
+        except SyntaxError:  # Python: too many statically nested blocks
+            self.unit.forget(mark)
         analyser, scope = self._scope(spans, span)
-        node = analyser.node(form, scope)
-        return self.unit.top(node, scope.procedure, many=many)
+        analyser.block_cost = MOST_BLOCKS
+        return self.unit.top(analyser.node(form, scope), scope.procedure, many=many)
 
     def _expander(self, form: Value, scope: Scope) -> Any:
         """The function of a MACROLET expander; it sees the macros around it, but no variables."""

@@ -55,7 +55,9 @@ class Unit(Code):
         """The global name of SYMBOL's cell."""
         name = self.cells.get(symbol)
         if name is None:
-            name = f"@{symbol.package}:{symbol.name}" if symbol.package else f"@{len(self.cells)}:{symbol.name}"
+            name = (
+                f"@{symbol.package}:{symbol.name}" if symbol.package else f"@{len(self.cells)}:{symbol.name}"
+            )
             self.cells[symbol] = name
             self.add_cell(name, symbol)
         return name
@@ -75,6 +77,14 @@ class Unit(Code):
             self.lambdas.append(node)
             node.number = len(self.lambdas)
 
+    def mark(self) -> int:
+        """How many functions there are, for `forget`."""
+        return len(self.lambdas)
+
+    def forget(self, mark: int) -> None:
+        """Forget the functions made since MARK: their code could not be compiled."""
+        del self.lambdas[mark:]
+
     def function_name(self, node: Lambda) -> str:
         """A Python name for the definition of a function."""
         self.number(node)
@@ -87,7 +97,9 @@ class Unit(Code):
     def check_nesting(self, nesting: int, node: Node) -> None:
         """Refuse control structures nested so deep that Python could not compile them."""
         if nesting > DEEPEST:
-            raise error_at("nested-too-deep", f"control structures are nested more than {DEEPEST} deep", node.span)
+            raise error_at(
+                "nested-too-deep", f"control structures are nested more than {DEEPEST} deep", node.span
+            )
 
     # --- putting together ------------------------------------------------------
 
@@ -144,7 +156,12 @@ def may_be_many(node: Node) -> bool:
             return may_be_many(nodes[-1])
         case core.If(then=then, otherwise=otherwise):
             return may_be_many(then) or may_be_many(otherwise)
-        case core.Let(body=body) | core.Receive(body=body) | core.Bind(body=body) | core.LocalFunctions(body=body):
+        case (
+            core.Let(body=body)
+            | core.Receive(body=body)
+            | core.Bind(body=body)
+            | core.LocalFunctions(body=body)
+        ):
             return may_be_many(body)
         case core.Const() | core.Local() | core.Global() | core.Inline() | core.Lambda() | core.FunctionOf():
             return False

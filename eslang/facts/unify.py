@@ -13,7 +13,12 @@ from eslang.base.text import String
 
 def is_variable(term: Value) -> bool:
     """True if TERM is a logic variable."""
-    return isinstance(term, Symbol) and not isinstance(term, Keyword) and term.name.startswith("?") and len(term.name) > 1
+    return (
+        isinstance(term, Symbol)
+        and not isinstance(term, Keyword)
+        and term.name.startswith("?")
+        and len(term.name) > 1
+    )
 
 
 def same(left: Value, right: Value) -> bool:

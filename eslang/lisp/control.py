@@ -193,7 +193,9 @@ for _name, _implementation in LISP_SUPPORT.items():
     function(f"({_name.lower()} &rest arguments)")(_implementation)
 
 
-variable("lambda-list-keywords", from_items(MARKERS), "The markers that a lambda list may contain.", constant=True)
+variable(
+    "lambda-list-keywords", from_items(MARKERS), "The markers that a lambda list may contain.", constant=True
+)
 variable("call-arguments-limit", 2**31, "No call has as many arguments.", constant=True)
 variable("lambda-parameters-limit", 2**31, "No function has as many parameters.", constant=True)
 variable("multiple-values-limit", 2**31, "No form gives as many values.", constant=True)

@@ -72,7 +72,11 @@ def define_variable(name: Symbol, kind: Keyword, value: Value, doc: Value, where
     if cell.definition is None or cell.definition.kind in ("variable", "constant"):
         signature = doc if doc is not None else None
         definition = Definition(
-            "constant" if cell.constant else "variable", name.name, name.package or "", name.name.lower(), None
+            "constant" if cell.constant else "variable",
+            name.name,
+            name.package or "",
+            name.name.lower(),
+            None,
         )
         definition.documentation = signature.text if signature is not None else ""
         if where is not None:

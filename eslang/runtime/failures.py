@@ -54,7 +54,9 @@ class Clause(NamedTuple):
     limit: int | None  # None: :infinite
     procedure: Callable[..., Value]
     place: Value  # a list, as the compiler noted it
-    takes: Callable[[Failure], bool] | None = None  # HANDLER-BIND's own test; such a clause declines by returning
+    takes: Callable[[Failure], bool] | None = (
+        None  # HANDLER-BIND's own test; such a clause declines by returning
+    )
 
 
 class Form:
@@ -85,7 +87,7 @@ class Causes:
     """The hierarchy of causes: DEFINE-FAILURE gives a cause its parents."""
 
     def __init__(self) -> None:
-        self.parents: dict[Value, tuple[Value, ...]] = {cause: (ERROR,) for cause in HOST_CAUSES}
+        self.parents: dict[Value, tuple[Value, ...]] = dict.fromkeys(HOST_CAUSES, (ERROR,))
         self._ancestors: dict[Value, frozenset[Value]] = {}
 
     def define(self, cause: Value, parents: tuple[Value, ...]) -> None:

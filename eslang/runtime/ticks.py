@@ -55,5 +55,3 @@ class Ticks:
     def _at_call(self, frame: FrameType, event: str, argument: Any) -> None:
         if event == "call" and "%many" in frame.f_globals:
             self.safepoint()
-
-

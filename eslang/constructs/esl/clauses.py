@@ -127,7 +127,9 @@ class RecoveryClause:
         return [lisp_list(QUOTE, self.cause), self.limit, lisp_list(QUOTE, place)]
 
 
-def refuse(environment: Any, name: str, message: str, holder: Cons, label: str = "", hint: str | None = None) -> NoReturn:
+def refuse(
+    environment: Any, name: str, message: str, holder: Cons, label: str = "", hint: str | None = None
+) -> NoReturn:
     """Raise the diagnostic of a clause that is not as it should be; it stands in HOLDER's car."""
     if environment is None:
         raise control_error(message)

@@ -25,11 +25,16 @@ def test_form(condition: Value, environment: Any) -> Value:
     if condition.__class__ is not Cons or not isinstance(condition.car, Symbol):
         return condition
     if condition.car in (AND, OR, NOT):
-        return Cons(condition.car, from_items([test_form(part, environment) for part in items(condition.cdr)]))
+        return Cons(
+            condition.car, from_items([test_form(part, environment) for part in items(condition.cdr)])
+        )
     if is_operator(condition.car, environment):
         return condition
     return lisp_list(
-        IF, lisp_list(CALLS, lisp_list(QUOTE, condition.car)), condition, lisp_list(QUERY, data_form(condition))
+        IF,
+        lisp_list(CALLS, lisp_list(QUOTE, condition.car)),
+        condition,
+        lisp_list(QUERY, data_form(condition)),
     )
 
 

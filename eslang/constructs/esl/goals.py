@@ -15,7 +15,9 @@ from eslang.runtime import failures
 NO_APPLICABLE_METHOD = Keyword("NO-APPLICABLE-METHOD")
 CONDITION_NOT_ACHIEVED = Keyword("CONDITION-NOT-ACHIEVED")
 LAMBDA, QUOTE, COND = (Symbol.intern(name, CL) for name in ("LAMBDA", "QUOTE", "COND"))
-DEFINE_GOAL, ACHIEVE, BINDING = (Symbol.intern(n, ESL) for n in ("%DEFINE-GOAL", "%ACHIEVE", "%LOGICAL-BINDING"))
+DEFINE_GOAL, ACHIEVE, BINDING = (
+    Symbol.intern(n, ESL) for n in ("%DEFINE-GOAL", "%ACHIEVE", "%LOGICAL-BINDING")
+)
 
 
 @macro("(to-achieve condition &rest methods)", ESL)
