@@ -54,6 +54,7 @@ ROOMS = [
     "eslang.constructs.esl.prompt",
     "eslang.constructs.esl.doubles",
     "eslang.constructs.esl.documentation",
+    "eslang.constructs.esl.quitting",
 ]
 FILES = [
     "control",
@@ -61,6 +62,7 @@ FILES = [
     "place-kinds",
     "loop-variables",
     "loop",
+    "declarations",
     "types",
     "packages",
     "structures",

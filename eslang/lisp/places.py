@@ -41,6 +41,13 @@ def set_setf_writer(name: Symbol, writer: Value) -> Value:
     return name
 
 
+@function("(%define-symbol-macro symbol expansion)")
+def define_symbol_macro(symbol: Symbol, expansion: Value) -> Value:
+    """Let SYMBOL, as a variable, stand for the form EXPANSION; return SYMBOL."""
+    running.session.image.cell(symbol).symbol_macro = [expansion]
+    return symbol
+
+
 def _property(plist: Value, indicator: Value, operator: str) -> tuple[Value, Value]:
     """The tail of PLIST that begins with INDICATOR (NIL: there is none), and the cons before it."""
     before = None
