@@ -45,10 +45,19 @@ def _register(kind: str, signature: str, package: str, many: Any) -> Callable[[F
     name = signature[1:].split(None, 1)[0].rstrip(")").upper()
 
     def decorate(implementation: F) -> F:
+        if kind == "function":
+            _call_by_name(name, implementation, many)
         DEFINITIONS.append(Definition(kind, name, package, signature, implementation, many))
         return implementation
 
     return decorate
+
+
+def _call_by_name(name: str, *implementations: Any) -> None:
+    """Let Python, when the arguments are too few or too many, speak of NAME; the first one stays."""
+    for implementation in implementations:
+        if implementation is not None and not implementation.__qualname__.isupper():
+            implementation.__qualname__ = name
 
 
 def function(
