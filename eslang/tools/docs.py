@@ -90,6 +90,7 @@ def unknown_name(interp: Any, name: str) -> str:
 def definitions(interp: Any, package: str) -> list[Definition]:
     """All that is registered of the external names of PACKAGE, in alphabetical order."""
     found = []
+    interp.compiler("<names>")  # brings the special forms
     home = interp.image.packages[package]
     for name in sorted(home.external):
         symbol = home.present.get(name)

@@ -11,6 +11,7 @@ from eslang.base.symbols import Keyword, Symbol
 
 def find_symbol(interp: Any, text: str) -> Symbol | None:
     """The symbol that TEXT names in the current package, `package:name` too; None if there is none."""
+    interp.compiler("<names>")  # brings the special forms
     name, package = text.upper(), interp.image.package
     if ":" in name.strip(":"):
         prefix, _, name = name.partition(":")
@@ -41,6 +42,7 @@ def signature_of(interp: Any, text: str) -> str | None:
 
 def known_names(interp: Any) -> Iterator[tuple[str, str]]:
     """Each name that means something in the current package, with its signature; in alphabetical order."""
+    interp.compiler("<names>")  # brings the special forms
     found: dict[str, str] = {}
     for symbol in interp.image.package.accessible():
         if not isinstance(symbol, Symbol) or isinstance(symbol, Keyword) or symbol.name.startswith("%"):

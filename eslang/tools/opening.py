@@ -18,6 +18,13 @@ LATER = ("scenario", "facts")  # options whose rooms are still to be built
 Listener = Callable[[Any], None]
 
 
+class OutputClosed(Stop):
+    """Nobody reads the output any more."""
+
+    def __init__(self) -> None:
+        super().__init__("nobody reads the output", 0)
+
+
 class Outlet:
     """Standard output. When nobody reads it any more, the run is to end, quietly."""
 
@@ -29,14 +36,14 @@ class Outlet:
         try:
             self.stream.write(text)
         except BrokenPipeError:
-            raise Stop("nobody reads the output", 0) from None
+            raise OutputClosed from None
 
     def flush(self) -> None:
         """Let everything written so far arrive."""
         try:
             self.stream.flush()
         except BrokenPipeError:
-            raise Stop("nobody reads the output", 0) from None
+            raise OutputClosed from None
 
 
 @contextmanager

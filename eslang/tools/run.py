@@ -15,10 +15,11 @@ from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
 from eslang.tools.interrupts import Interrupts
 from eslang.tools.narrator import narrate
-from eslang.tools.opening import limit_of, opened, readable
+from eslang.tools.opening import OutputClosed, limit_of, opened, readable
 from eslang.tools.options import Chosen, Usage
 
 FAILED, WRONG = 1, 65
+QUIT = "quit"  # the reason of a Stop that the plan itself wanted
 
 
 def run(chosen: Chosen) -> int:
@@ -89,10 +90,10 @@ def outcome(interp: Any, work: Callable[[], None]) -> int:
         from eslang.tools.report import wants_colour
 
         code = complain(interp, render(error.diagnostic, wants_colour(sys.stderr)), WRONG)
+    except OutputClosed:
+        return 0
     except Stop as stop:
-        if not stop.code:
-            return 0  # nobody reads the output any more, or (quit)
-        code = complain(interp, f"esl: {stop.reason}", stop.code)
+        code = stop.code if stop.reason == QUIT else complain(interp, f"esl: {stop.reason}", stop.code)
     finish_output(interp)
     return code
 

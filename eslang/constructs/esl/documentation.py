@@ -11,9 +11,11 @@ from eslang.base.lists import Cons, lisp_list
 from eslang.base.many import Values
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value
+from eslang.base.text import String
 from eslang.compile.registry import ESL, Definition, function, macro
 
 QUOTE = Symbol.intern("QUOTE", "COMMON-LISP")
+VARIABLE = Symbol.intern("VARIABLE", "COMMON-LISP")
 PRINT_DOC = Symbol.intern("%PRINT-DOC", "ESL")
 
 
@@ -37,8 +39,11 @@ def doc(form: Value, environment: Any) -> Value:
     Example:
         ? (defun greet (name) "Return a greeting for NAME." (list :hello name))
         GREET
-        ? (documentation 'greet 'function)
-        "Return a greeting for NAME."
+        ? (doc greet)
+        (greet name)
+          function of ESL-USER, defined at <prompt>:1:1
+
+        Return a greeting for NAME.
 
     Source: ours; the papers leave it to Lisp.
     """
@@ -48,10 +53,16 @@ def doc(form: Value, environment: Any) -> Value:
     return lisp_list(PRINT_DOC, lisp_list(QUOTE, name))
 
 
+def definition_of(name: Value) -> Definition | None:
+    """What is registered of NAME."""
+    definition: Definition | None = running.session.definition(name) if isinstance(name, Symbol) else None
+    return definition
+
+
 def print_doc_values(name: Value) -> Value:
     """Print what is known of NAME."""
     session = running.session
-    definition = session.image.cell(name).definition if isinstance(name, Symbol) else None
+    definition = definition_of(name)
     if definition is None:
         raise simple_error("nothing is known of this name", name)
     session.output.fresh_line()
@@ -64,3 +75,12 @@ def print_doc(name: Value) -> Value:
     """Print what is known of NAME."""
     print_doc_values(name)
     return None
+
+
+@function("(documentation name type)")
+def documentation(name: Value, kind: Value) -> Value:
+    """Return the docstring of NAME as a string, or NIL if it has none."""
+    definition = definition_of(name)
+    if definition is None or (definition.kind in ("variable", "constant")) != (kind is VARIABLE):
+        return None
+    return String(definition.doc()) if definition.doc() else None

@@ -179,6 +179,12 @@ def test_a_closed_pipe_ends_the_run_quietly() -> None:
     assert err == ""
 
 
+def test_a_plan_may_quit_with_a_code_after_its_cleanups() -> None:
+    body = "(with-cleanup-procedure (princ :cleaned) (princ :begun) (terpri) (quit 7) (princ :never))"
+    assert call(["-e", body]) == Ended(7, "BEGUN\nCLEANED\n", "")
+    assert call(["repl"], stdin="1 (quit 3) 2") == Ended(3, "? 1\n1\n? (quit 3)\n", "")
+
+
 def test_output_appears_as_it_happens() -> None:
     with start("run", "-e", "(progn (princ :first) (terpri) (loop))") as running:
         assert running.stdout is not None
