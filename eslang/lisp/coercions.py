@@ -30,7 +30,7 @@ def _as_character(value: Value) -> Character:
 
 def _as_function(value: Value) -> Value:
     if value.__class__ is Cons:
-        return running.session.evaluate(value)
+        return running.session.evaluate_form(value)
     return to_function(value)
 
 
