@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 from eslang import prelude
 from eslang.base.border import to_lisp, to_python
 from eslang.base.control import Stop
-from eslang.base.diagnostics import error_at
+from eslang.base.diagnostics import Diagnostic, EslError, error_at
 from eslang.base.failure import UNBOUND_VARIABLE, Failure
 from eslang.base.image import PACKAGE, Image
 from eslang.base.many import values_list
@@ -298,6 +298,24 @@ class Interpreter:
         self.compiler("<names>")
         definition: Definition | None = self.image.cell(symbol).definition
         return definition
+
+    def check(self, paths: Iterable[str | Path]) -> list[Diagnostic]:
+        """What can be known of a program, the files in order, without running it."""
+        from eslang.compile.check import Checker
+
+        with self.at_work():
+            self.compiler("<check>")
+            checker = Checker(self.image, lambda unit, code: run_task(unit.load(code)))
+            for path in paths:
+                try:
+                    source = _source(Path(path).read_bytes(), str(path))
+                except EslError as error:
+                    checker.found.append(error.diagnostic)
+                    continue
+                package = self.image.cell(PACKAGE).value
+                checker.text(self.readings(source), self.compiler(source.name))
+                self.image.cell(PACKAGE).value = package
+            return checker.finish()
 
     def interrupt(self, reason: str = "interrupted", code: int = 130) -> None:
         """Stop what runs, soon, with its cleanups; safe to call from a signal handler."""

@@ -24,7 +24,8 @@ def make_primitive(function: Any, name: str | None, signature: str | None) -> De
     if signature is None:
         signature = _signature(function, name or lisp_name(function.__name__).lower())
     name = name or str(read_signature(signature)[0])
-    definition = Definition("function", name.upper(), ESL, signature, None)
+    shown = signature.replace(name, name.rpartition(":")[2], 1)
+    definition = Definition("function", name.upper(), ESL, shown, None)
     definition.documentation = function.__doc__ or ""
     definition.implementation = _wrapped(function, name.upper(), arity(signature), _positional(signature))
     return definition

@@ -48,9 +48,9 @@ class Texts:
         before = self.circumstances
         compiler, _ = self._compile(source, run)
         alone = self.circumstances == before  # it loaded nothing else, whose macros it might use
-        entry = cache.write_down(compiler) if alone and compiler.is_pure() else None
-        if entry is not None:
-            cache.keep(key, [entry])
+        written = cache.write_down(compiler) if alone and compiler.is_pure() else None
+        if written is not None:
+            cache.keep(key, [written])
 
     def load_library(self, paths: list[Path]) -> None:
         """Load the library, all of it or none from the cache."""

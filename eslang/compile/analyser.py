@@ -51,6 +51,7 @@ class Use(NamedTuple):
     span: Span | None
     form: Value
     scope: Scope
+    within: str | None  # the definition around it
 
 
 class Analyser:
@@ -64,6 +65,7 @@ class Analyser:
         compile_expander: Callable[[Value, Scope], Any],
         uses: list[Use] | None = None,
         expanders: list[Any] | None = None,
+        notices: list[Diagnostic] | None = None,
     ) -> None:
         self.image = image
         self.compile_expander = compile_expander  # a MACROLET function from its LAMBDA form
@@ -73,6 +75,7 @@ class Analyser:
         self.names: dict[str, int] = {}
         self.definition: str | None = None  # the definition around the form, for `= in`
         self.uses = uses
+        self.notices = notices
         self.expanders = expanders if expanders is not None else []  # of the macros met on the way
 
     # --- names -----------------------------------------------------------------
@@ -223,9 +226,17 @@ class Analyser:
     def use(self, kind: str, symbol: Symbol, arguments: list[Node] | None, form: Value, scope: Scope) -> None:
         """Note that the program mentions a global name."""
         if self.uses is not None:
-            self.uses.append(Use(kind, symbol, arguments, self.span, form, scope))
+            span = self.spans.element(form) if form.__class__ is Cons and form.car is symbol else None
+            self.uses.append(Use(kind, symbol, arguments, span or self.span, form, scope, self.definition))
 
     # --- mistakes --------------------------------------------------------------
+
+    def warn(self, name: str, message: str, span: Span | None, hint: str | None = None) -> None:
+        """Note what is not wrong, but surely not meant; only a check tells of it."""
+        place = span or self.span
+        if self.notices is not None and place is not None:
+            labels = (Label(place),)
+            self.notices.append(Diagnostic(name, message, labels, self.definition, hint, severity="warning"))
 
     def check_shape(self, definition: Definition, form: Cons) -> None:
         """Fail unless FORM has as many arguments as DEFINITION takes."""

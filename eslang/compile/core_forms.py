@@ -142,7 +142,7 @@ def assignment(analyser: Analyser, symbol: Symbol, holder: Cons, scope: Scope) -
     found = scope.find_variable(symbol)
     expansion = None
     if found.__class__ is SymbolMacro:
-        expansion = [found.expansion]  # type: ignore[union-attr]
+        expansion = [found.expansion]
     elif found is None:
         expansion = analyser.image.cell(symbol).symbol_macro
     if expansion is not None:

@@ -93,7 +93,7 @@ def defmacro(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 
 def _macro_parameters(lst: Value) -> str:
     """The lambda list as it stands, but for &environment and &whole."""
-    shown = []
+    shown: list[str] = []
     while lst.__class__ is Cons:
         element = lst.car
         if isinstance(element, Symbol) and element.name in ("&ENVIRONMENT", "&WHOLE"):

@@ -256,11 +256,15 @@ class ExpressionEmitter(Builder):
             return self.constant(None)
         if len(expressions) > 1:
             first = expressions[0] if self.is_stable(expressions[0]) else self.keep(expressions[0])
-            for expression in expressions[1:]:
-                if not is_simple(expression):
+            for part, expression in zip(node.nodes[1:], expressions[1:], strict=True):
+                if not is_simple(expression) or self.is_outer(part):
                     self.put(self.effect(expression))
             return first
         return expressions[0]
+
+    def is_outer(self, node: Node) -> bool:
+        """True if NODE is a variable of an outer procedure: the variant for all values may need to capture it."""
+        return isinstance(node, Local) and node.variable.owner is not self.procedure
 
     def value_gather(self, node: core.Gather, many: bool) -> ast.expr:
         function = self.keep(self.value(node.function))

@@ -49,7 +49,7 @@ def macroexpand_1(form: Value, image: Image, scope: Scope | None = None) -> tupl
         return form, False
     found = scope.find_function(form.car) if scope is not None else None
     if found.__class__ is LocalMacro:
-        return found.expander(form, scope), True  # type: ignore[union-attr]
+        return found.expander(form, scope), True
     if found is None:
         expander = image.cell(form.car).macro
         if expander is not None and form.car not in image.special_forms:
@@ -60,7 +60,7 @@ def macroexpand_1(form: Value, image: Image, scope: Scope | None = None) -> tupl
 def _expand_symbol(symbol: Symbol, image: Image, scope: Scope | None) -> tuple[Value, bool]:
     found = scope.find_variable(symbol) if scope is not None else None
     if found.__class__ is SymbolMacro:
-        return found.expansion, True  # type: ignore[union-attr]
+        return found.expansion, True
     if found is None or found.__class__ is not Variable:
         expansion = image.cell(symbol).symbol_macro
         if expansion is not None and found is None:

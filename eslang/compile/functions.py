@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from eslang.base.lists import Cons, items
+from eslang.base.lists import Cons, items, lisp_list
 from eslang.base.printer import prin1
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.analyser import LAMBDA, Analyser
 from eslang.compile.bindings import is_special, sequential
 from eslang.compile.core import (
-    Bind,
     FunctionOf,
     KeyParameter,
     Lambda,
@@ -40,26 +39,13 @@ def checked_lambda_list(analyser: Analyser, lst: Value, *, destructuring: bool =
 class _Parameters:
     """Binds the parameters of one lambda list, in order, in the function's scope."""
 
-    def __init__(self, analyser: Analyser, scope: Scope, specials: set[Symbol]) -> None:
+    def __init__(self, analyser: Analyser, scope: Scope) -> None:
         self.analyser = analyser
         self.scope = scope
-        self.specials = specials
-        self.dynamic: list[tuple[Symbol, Node]] = []
-        self.seen: set[Symbol] = set()
 
     def bind(self, symbol: Symbol) -> Variable:
-        """The variable of a parameter; a special one is bound dynamically in the body."""
-        if symbol in self.seen:
-            self.analyser.fail(
-                "malformed-lambda-list", f"the parameter `{prin1(symbol).lower()}` stands here twice"
-            )
-        self.seen.add(symbol)
-        if not is_special(self.analyser, symbol, self.specials):
-            return self.analyser.variable(symbol, self.scope)
-        variable = self.analyser.unnamed_variable(symbol, self.scope)
-        variable.mentioned = True
-        self.dynamic.append((symbol, Local(self.analyser.span, variable)))
-        return variable
+        """The variable of a parameter."""
+        return self.analyser.variable(symbol, self.scope)
 
     def default(self, parameter: Parameter) -> tuple[Variable, Node, Variable | None]:
         """The variable, default and supplied-p variable of an optional or keyword parameter."""
@@ -67,6 +53,43 @@ class _Parameters:
         variable = self.bind(parameter.name)
         supplied = self.bind(parameter.supplied) if parameter.supplied is not None else None
         return variable, default, supplied
+
+
+def _check_names(analyser: Analyser, names: list[Symbol]) -> None:
+    """Fail if two parameters have the same name."""
+    for index, symbol in enumerate(names):
+        if symbol in names[:index]:
+            analyser.fail(
+                "malformed-lambda-list", f"the parameter `{prin1(symbol).lower()}` stands here twice"
+            )
+
+
+def _rebound(parts: LambdaList) -> LambdaList:
+    """PARTS with other names for all parameters, so that auxiliary ones get theirs, one after the other.
+
+    A special parameter is bound that way before the defaults behind it are computed.
+    """
+    aux: list[Parameter] = []
+
+    def wait(symbol: Symbol) -> Symbol:
+        waiting = Symbol.uninterned(symbol.name)
+        aux.append(Parameter(symbol, waiting))
+        return waiting
+
+    def wait_or_default(parameter: Parameter) -> Parameter:
+        waiting, given = Symbol.uninterned(parameter.name.name), Symbol.uninterned("SUPPLIED")
+        aux.append(Parameter(parameter.name, lisp_list(IF, given, waiting, parameter.default)))
+        if parameter.supplied is not None:
+            aux.append(Parameter(parameter.supplied, given))
+        return Parameter(waiting, None, given, parameter.keyword)
+
+    required = [wait(symbol) for symbol in parts.required]
+    optional = [wait_or_default(parameter) for parameter in parts.optional]
+    rest = wait(parts.rest) if parts.has_rest else None
+    keys = [wait_or_default(parameter) for parameter in parts.keys] if parts.keys is not None else None
+    return LambdaList(
+        required, optional, rest, parts.has_rest, keys, parts.allow_other_keys, [*aux, *parts.aux]
+    )
 
 
 def function_node(
@@ -82,21 +105,21 @@ def function_node(
     """The node of a function with lambda list LST and body FORMS, in a block called BLOCK if `named`."""
     parts = checked_lambda_list(analyser, lst)
     declarations, documentation, forms = split_body(forms, documented=True)
+    specials = declared(declarations, SPECIAL_NAME)
+    names = parts.names()
+    _check_names(analyser, names)
+    if any(is_special(analyser, symbol, specials) for symbol in names):
+        parts = _rebound(parts)
     procedure = analyser.procedure(name, scope)
     inner = scope.inner(procedure)
-    specials = declared(declarations, SPECIAL_NAME)
-    parameters = _Parameters(analyser, inner, specials)
+    parameters = _Parameters(analyser, inner)
     required = [parameters.bind(symbol) for symbol in parts.required]
     optional = [Optional(*parameters.default(parameter)) for parameter in parts.optional]
     rest = parameters.bind(parts.rest) if parts.has_rest else None
     keys = None
     if parts.keys is not None:
         keys = [KeyParameter(p.keyword, *parameters.default(p)) for p in parts.keys if p.keyword is not None]
-    for symbol, _ in parameters.dynamic:
-        inner.variables[symbol] = SPECIAL
-    body = _function_body(analyser, parts, declarations, forms, inner, block, named, bool(parameters.dynamic))
-    if parameters.dynamic:
-        body = Bind(analyser.span, parameters.dynamic, body)
+    body = _function_body(analyser, parts, declarations, forms, inner, block, named)
     return Lambda(
         analyser.span, procedure, required, optional, rest, keys, parts.allow_other_keys, body, documentation
     )
@@ -110,9 +133,7 @@ def _function_body(
     scope: Scope,
     block: Symbol | None,
     named: bool,
-    dynamic: bool,
 ) -> Node:
-    scope.procedure.nesting += 2 if dynamic else 0
     if parts.aux:
         if named:
             forms = Cons(Cons(BLOCK, Cons(block, forms)), None)
@@ -122,7 +143,7 @@ def _function_body(
     return named_block(analyser, block, forms, scope) if named else analyser.body(forms, scope)
 
 
-BLOCK = Symbol.intern("BLOCK", "COMMON-LISP")
+BLOCK, IF = (Symbol.intern(name, "COMMON-LISP") for name in ("BLOCK", "IF"))
 
 
 @special_form("(lambda lambda-list &body forms)")

@@ -61,6 +61,19 @@ class LambdaList:
             return None
         return len(self.required) + len(self.optional)
 
+    def names(self) -> list[Value]:
+        """The names of all parameters but the auxiliary ones, in order."""
+        found = list(self.required)
+        for parameter in (
+            *self.optional,
+            *([Parameter(self.rest)] if self.has_rest else ()),
+            *(self.keys or ()),
+        ):
+            found.append(parameter.name)
+            if parameter.supplied is not None:
+                found.append(parameter.supplied)
+        return found
+
 
 def parse_lambda_list(lst: Value, *, destructuring: bool = False) -> LambdaList:
     """The parts of LST; BadLambdaList says what is wrong with it."""
@@ -94,18 +107,18 @@ class _Parser:
         """Enter the section that MARKER opens; the tail behind what it takes."""
         if marker in (WHOLE, ENVIRONMENT) and self.destructuring:
             if rest.cdr is None or not isinstance(rest.cdr.car, Symbol):
-                raise BadLambdaList(f"a variable must follow `{marker.name.lower()}`", marker)
+                raise BadLambdaList("a variable must follow this marker", marker)
             setattr(self.result, "whole" if marker is WHOLE else "environment", rest.cdr.car)
             return rest.cdr.cdr
         order = _ORDER.get(marker)
         if order is None:
-            raise BadLambdaList(f"`{marker.name.lower()}` is no lambda list marker", marker)
+            raise BadLambdaList("there is no such lambda list marker", marker)
         if order <= self.section or (marker is ALLOW and self.section != 3):
-            raise BadLambdaList(f"`{marker.name.lower()}` stands in the wrong place", marker)
+            raise BadLambdaList("this marker stands in the wrong place", marker)
         self.section = order
         if order == 2:
             if rest.cdr is None or rest.cdr.__class__ is not Cons:
-                raise BadLambdaList(f"a variable must follow `{marker.name.lower()}`", marker)
+                raise BadLambdaList("a variable must follow this marker", marker)
             self.result.rest, self.result.has_rest = self.name(rest.cdr.car), True
             return rest.cdr.cdr
         if order == 3:

@@ -34,7 +34,7 @@ class Builder:
     """Makes Python AST nodes at one place of the Lisp text after another."""
 
     def __init__(self) -> None:
-        self.at: dict[str, int] = {"lineno": 1, "col_offset": 0, "end_lineno": 1, "end_col_offset": 0}
+        self.at: dict[str, Any] = {"lineno": 1, "col_offset": 0, "end_lineno": 1, "end_col_offset": 0}
 
     def move(self, span: Span | None) -> None:
         """Let the nodes to come stand at SPAN."""

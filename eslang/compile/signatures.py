@@ -21,6 +21,7 @@ class Arity(NamedTuple):
     least: int
     most: int | None
     keywords: tuple[str, ...] | None  # None: no &key, or any keyword
+    positional: int = 0  # how many stand before keywords
 
     def takes(self, count: int) -> bool:
         """True if COUNT arguments are right."""
@@ -79,7 +80,7 @@ def _arity(elements: list[Any]) -> Arity:
         elif section == "&key":
             keywords.append(_keyword(element))
     has_keys = bool(keywords) and not any_key
-    return Arity(least, None if unbounded else most, tuple(keywords) if has_keys else None)
+    return Arity(least, None if unbounded else most, tuple(keywords) if has_keys else None, most)
 
 
 def _keyword(element: Any) -> str:

@@ -7,11 +7,11 @@ be run again from its code alone (cache.py).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from types import CodeType
 from typing import Any
 
-from eslang.base.diagnostics import error_at
+from eslang.base.diagnostics import Diagnostic, error_at
 from eslang.base.image import Image
 from eslang.base.lists import Cons
 from eslang.base.spans import Span, Spans
@@ -36,6 +36,7 @@ class Compiler:
         self.unit = Unit(image, support, name)
         self.codes: list[CodeType] = []
         self.uses: list[Use] | None = None
+        self.notices: list[Diagnostic] | None = None
         self.expanders: list[Any] = []  # of the macros that were expanded
 
     def is_pure(self) -> bool:
@@ -71,6 +72,15 @@ class Compiler:
         self.image.counters = counters  # expanding counts for nothing: a kept text does not expand
         return run(code)
 
+    def pieces(self, form: Value, spans: Spans, span: Span | None) -> Iterator[CodeType]:
+        """The code of FORM, piece by piece, to be run or not before the next is compiled."""
+        form = self._expanded(form, spans, span)
+        parts = self._parts(form)
+        if parts is None:
+            yield self._code(form, spans, span, many=False)
+        for part in parts or ():
+            yield from self.pieces(part, spans, spans.of(part) or span)
+
     def _parts(self, form: Value) -> list[Value] | None:
         """The forms that a top-level PROGN or EVAL-WHEN stands for; None for any other form."""
         if form.__class__ is not Cons or form.car not in (PROGN, EVAL_WHEN):
@@ -103,7 +113,7 @@ class Compiler:
         return form
 
     def _scope(self, spans: Spans, span: Span | None) -> tuple[Analyser, Scope]:
-        analyser = Analyser(self.image, spans, span, self._expander, self.uses, self.expanders)
+        analyser = Analyser(self.image, spans, span, self._expander, self.uses, self.expanders, self.notices)
         return analyser, Scope(None, analyser.procedure("top level", None), analyser)
 
     def _code(self, form: Value, spans: Spans, span: Span | None, many: bool) -> CodeType:

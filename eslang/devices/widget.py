@@ -7,16 +7,19 @@ whose state is the variable *WIDGET-STATUS* (stdlib/widgets.esl).
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from eslang.base.failure import Failure
 from eslang.base.symbols import Keyword
+
+if TYPE_CHECKING:
+    from eslang.interpreter import Interpreter
 
 OK = Keyword("OK")
 STATUS = "esl::*widget-status*"
 
 
-def install(agent: Any) -> None:
+def install(agent: Interpreter) -> None:
     """Give an interpreter its widgets."""
     named: dict[Any, Any] = {}
 

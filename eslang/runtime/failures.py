@@ -188,7 +188,7 @@ def _call(dynamic: Dynamic, form: Form, clause: Clause, failure: Failure) -> Val
 def signal_error(error: Exception) -> None:
     """Signal a Python error that left Lisp code; it has no place to continue."""
     failure = error if error.__class__ is Failure else to_failure(error)
-    signal(failure, continuable=False)  # type: ignore[arg-type]
+    signal(failure, continuable=False)
 
 
 # --- forms ---------------------------------------------------------------------------

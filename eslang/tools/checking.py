@@ -24,11 +24,11 @@ def check(chosen: Chosen) -> int:
     errors = warnings = 0
     for path in chosen.words:
         readable(path)
-        with Interpreter(clock="virtual") as interp:
-            for diagnostic in interp.check(path):
-                errors += diagnostic.severity == "error"
-                warnings += diagnostic.severity != "error"
-                sys.stderr.write(render(diagnostic) + "\n")
+    with Interpreter(clock="virtual") as interp:
+        for diagnostic in interp.check(chosen.words):
+            errors += diagnostic.severity == "error"
+            warnings += diagnostic.severity != "error"
+            sys.stderr.write(render(diagnostic) + "\n")
     if errors or warnings:
         sys.stderr.write(f"{counted(errors, 'error')}, {counted(warnings, 'warning')}\n")
     return WRONG if errors else 0

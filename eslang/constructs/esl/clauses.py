@@ -6,15 +6,18 @@ wrong with a clause is said at the place where it is wrong.
 
 from __future__ import annotations
 
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
-from eslang.base.failure import control_error
+from eslang.base.failure import GENERAL_FAILURE, control_error
 from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.printer import prin1
 from eslang.base.suggest import nearest
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.text import String
 from eslang.compile.registry import CL, ESL
+
+if TYPE_CHECKING:
+    from eslang.compile.scope import Scope
 
 RETRIES, INFINITE = Keyword("RETRIES"), Keyword("INFINITE")
 LAMBDA, QUOTE, OPTIONAL, REST, SYMBOL_MACROLET = (
@@ -31,7 +34,7 @@ def is_one_clause(clauses: Cons) -> bool:
 class RecoveryClause:
     """One recovery clause, taken apart."""
 
-    def __init__(self, clause: Value, holder: Cons, environment: Any) -> None:
+    def __init__(self, clause: Value, holder: Cons, environment: Scope | None) -> None:
         self.environment = environment
         if clause.__class__ is not Cons:
             refuse(
@@ -128,7 +131,7 @@ class RecoveryClause:
 
 
 def refuse(
-    environment: Any, name: str, message: str, holder: Cons, label: str = "", hint: str | None = None
+    environment: Scope | None, name: str, message: str, holder: Cons, label: str = "", hint: str | None = None
 ) -> NoReturn:
     """Raise the diagnostic of a clause that is not as it should be; it stands in HOLDER's car."""
     if environment is None:
@@ -136,3 +139,21 @@ def refuse(
     spans = environment.analyser.spans
     span = spans.element(holder) or spans.of(holder.car) or spans.of(holder)
     environment.analyser.fail(name, message, span, label, hint)
+
+
+def warn_of_unreachable(clauses: list[RecoveryClause], environment: Scope | None) -> None:
+    """Note each clause that can never be invoked: another answers all its failures, for ever."""
+    if environment is None:
+        return
+    for index, clause in enumerate(clauses):
+        before = [
+            c for c in clauses[:index] if c.limit is INFINITE and c.cause in (clause.cause, GENERAL_FAILURE)
+        ]
+        if before:
+            message = f"this clause is never invoked: the one for `{str(before[0].cause).lower()}` takes all its failures"
+        elif clause.limit == 0:
+            message = "this clause is never invoked: it has no retries"
+        else:
+            continue
+        analyser = environment.analyser
+        analyser.warn("unreachable-clause", message, analyser.spans.of(clause.clause))

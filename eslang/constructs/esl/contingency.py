@@ -16,7 +16,14 @@ from eslang.base.printer import prin1
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.registry import ESL, function, macro
-from eslang.constructs.esl.clauses import INFINITE, THIS_FORM, RecoveryClause, is_one_clause, refuse
+from eslang.constructs.esl.clauses import (
+    INFINITE,
+    THIS_FORM,
+    RecoveryClause,
+    is_one_clause,
+    refuse,
+    warn_of_unreachable,
+)
 from eslang.runtime import failures
 from eslang.runtime.failures import Clause, Form
 
@@ -94,6 +101,7 @@ def with_recovery_procedures(form: Cons, environment: Any) -> Value:
             rest = rest.cdr
     else:
         refuse(environment, "malformed-clause", f"`{prin1(clauses)}` is no list of recovery clauses", holder)
+    warn_of_unreachable(parts, environment)
     this = Symbol.uninterned("FORM")
     procedures = [part.procedure(this) for part in parts]
     specifications = [lisp_list(LIST, *part.specification()) for part in parts]
