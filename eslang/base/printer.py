@@ -121,11 +121,17 @@ def _package(value: Package, settings: WriteSettings) -> str:
 
 
 def _function(value: Any, settings: WriteSettings) -> str:
-    name = getattr(value, "lisp_name", None)
-    if name is None:
-        name = "LAMBDA" if value.__name__ == "<lambda>" else lisp_name(value.__name__)
+    name = getattr(value, "lisp_name", None) or _name_of_function(value)
     shown = name if name.__class__ is str else write_text(name, settings)
     return unreadable(f"FUNCTION {shown}", value, settings)
+
+
+def _name_of_function(function: Any) -> str:
+    """What Lisp calls a function: registered and compiled ones carry it in their __qualname__."""
+    name: str = function.__qualname__.partition("\0")[0]
+    if name == name.upper() or name != function.__qualname__:
+        return name.upper()
+    return "LAMBDA" if function.__name__ == "<lambda>" else lisp_name(function.__name__)
 
 
 def unreadable(text: str, value: Value, settings: WriteSettings) -> str:

@@ -25,6 +25,7 @@ class OutputStream(Datum):
     """Characters go to a Python text file; `column` counts from 0 at the start of a line."""
 
     __slots__ = ("_file", "closed", "column")
+    kind = "OUTPUT-STREAM"
 
     def __init__(self, file: Any = None) -> None:
         self._file = file  # None: whatever sys.stderr is when something is written
@@ -56,13 +57,14 @@ class OutputStream(Datum):
 
     def print_lisp(self, settings: Any) -> str:
         """How the printer shows a stream."""
-        return f"#<{type(self).__name__.removesuffix('Stream').upper()}-STREAM>"
+        return f"#<{self.kind}>"
 
 
 class StringOutputStream(OutputStream):
     """What is written is kept, until somebody takes it."""
 
     __slots__ = ("_pieces",)
+    kind = "STRING-OUTPUT-STREAM"
 
     def __init__(self) -> None:
         super().__init__()
@@ -86,6 +88,7 @@ class FillStream(OutputStream):
     """What is written lengthens a string with a fill pointer."""
 
     __slots__ = ("_string",)
+    kind = "STRING-OUTPUT-STREAM"
 
     def __init__(self, string: String) -> None:
         super().__init__()
