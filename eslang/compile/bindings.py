@@ -231,6 +231,5 @@ def funcall(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     if isinstance(function, FunctionOf) and not function.setf:
         return Call(analyser.span, function.symbol, arguments)
     if isinstance(function, Const) and isinstance(function.value, Symbol):
-        analyser.use("call", function.value, arguments, form, scope)
         return Call(analyser.span, function.value, arguments)
     return Funcall(analyser.span, function, arguments, known=isinstance(function, Lambda))

@@ -22,7 +22,7 @@ from eslang.compile.destructuring import macro_lambda
 from eslang.compile.exits import named_block
 from eslang.compile.lambda_lists import BadLambdaList, LambdaList, Parameter, parse_lambda_list
 from eslang.compile.registry import special_form
-from eslang.compile.scope import SPECIAL, LocalMacro, Scope
+from eslang.compile.scope import LocalMacro, Scope
 
 SETF = Symbol.intern("SETF", "COMMON-LISP")
 

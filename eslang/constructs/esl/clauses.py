@@ -150,7 +150,8 @@ def warn_of_unreachable(clauses: list[RecoveryClause], environment: Scope | None
             c for c in clauses[:index] if c.limit is INFINITE and c.cause in (clause.cause, GENERAL_FAILURE)
         ]
         if before:
-            message = f"this clause is never invoked: the one for `{str(before[0].cause).lower()}` takes all its failures"
+            first = str(before[0].cause).lower()
+            message = f"this clause is never invoked: the one for `{first}` takes all its failures"
         elif clause.limit == 0:
             message = "this clause is never invoked: it has no retries"
         else:
