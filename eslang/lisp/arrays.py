@@ -159,6 +159,11 @@ def aref(array: Value, *subscripts: Value) -> Value:
 @function("(%set-aref array &rest subscripts-and-value)")
 def set_aref(array: Value, *subscripts: Value) -> Value:
     """Make the last argument the element of ARRAY at the others; return it."""
+    if array.__class__ is Vector and len(subscripts) == 2:
+        index, value = subscripts
+        if index.__class__ is int and 0 <= index < len(array.items):
+            array.items[index] = value
+            return value
     return _store(array, row_major_index(array, subscripts[:-1]), subscripts[-1])
 
 

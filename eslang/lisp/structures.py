@@ -15,6 +15,7 @@ from eslang.base.lists import items
 from eslang.base.printer import write_text
 from eslang.base.symbols import Datum, Symbol, Value, truth
 from eslang.compile.registry import function
+from eslang.lisp.arguments import UNSUPPLIED, take_keys
 from eslang.lisp.hashing import STRUCTURED
 from eslang.lisp.streams import StringOutputStream
 from eslang.lisp.types import NAME_OF, Type, define_simple_type, define_type, find_type
@@ -131,6 +132,37 @@ def _named(function: Callable[..., Value], name: Value) -> Callable[..., Value]:
 def structure(kind: StructureType, *values: Value) -> Value:
     """A structure of TYPE with VALUES in its slots."""
     return Structure(kind, list(values))
+
+
+@function("(%structure-constructor name constructor defaults)")
+def structure_constructor(name: Value, constructor: Value, defaults: Value) -> Value:
+    """The function CONSTRUCTOR, which makes structures of the type NAME from keywords.
+
+    DEFAULTS has a cons (value . function) for each slot: what it holds by
+    default, or the function that finds that.
+    """
+    kind = structure_type(name)
+    names = tuple(kind.slot_names())
+    places = {Symbol.intern(slot, "KEYWORD"): place for place, slot in enumerate(names)}
+    given = [pair.car if pair.cdr is None else UNSUPPLIED for pair in items(defaults)]
+    computed = [(place, pair.cdr) for place, pair in enumerate(items(defaults)) if pair.cdr is not None]
+
+    def make(*options: Value) -> Value:
+        values = given.copy()
+        for index in range(len(options) - 2, -1, -2):
+            place = places.get(options[index])
+            if place is None:
+                take_keys(options, names)  # fails, unless other keys are allowed
+            else:
+                values[place] = options[index + 1]
+        if len(options) % 2:
+            take_keys(options, names)
+        for place, default in computed:
+            if values[place] is UNSUPPLIED:
+                values[place] = default()
+        return Structure(kind, values)
+
+    return _named(make, constructor)
 
 
 @function("(%structure-reader name index accessor)")
