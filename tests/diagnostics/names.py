@@ -8,13 +8,24 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
+from typing import NamedTuple
 
 from architecture.sources import MODULES
 
 NAME = re.compile(r"[a-z]+(?:-[a-z]+)+")
-FIRST_MAKERS = {("Diagnostic", 0), ("Unreadable", 0), ("Example", 1)}
+
+
+class Maker(NamedTuple):
+    """A function that makes a diagnostic: which argument tells the name, and what stands around it."""
+
+    function: str
+    position: int
+    template: str = "{}"
+
+
+FIRST_MAKERS = {Maker("Diagnostic", 0), Maker("Unreadable", 0), Maker("Example", 1)}
 
 
 def called(call: ast.Call) -> str:
@@ -28,43 +39,55 @@ def parameters(function: ast.FunctionDef) -> list[str]:
     return names[1:] if names[:1] in (["self"], ["cls"]) else names
 
 
-def named(call: ast.Call, makers: set[tuple[str, int]]) -> Iterator[ast.expr]:
-    """The arguments of CALL that name a diagnostic."""
-    for maker, position in makers:
-        if called(call) == maker:
-            yield from call.args[position : position + 1]
-            yield from (keyword.value for keyword in call.keywords if keyword.arg == "name")
+def named(call: ast.Call, makers: Iterable[Maker]) -> Iterator[tuple[ast.expr, str]]:
+    """The arguments of CALL that tell the name of a diagnostic, each with what stands around it."""
+    for maker in makers:
+        if called(call) == maker.function:
+            given = call.args[maker.position : maker.position + 1]
+            given += [keyword.value for keyword in call.keywords if keyword.arg == "name"]
+            for name in given:
+                yield _unwrapped(name, maker.template)
+
+
+def _unwrapped(name: ast.expr, template: str) -> tuple[ast.expr, str]:
+    """The variable part of an f-string with a single one, and the template with the rest."""
+    if isinstance(name, ast.JoinedStr):
+        parts = [part for part in name.values if isinstance(part, ast.FormattedValue)]
+        around = ["{}" if part in parts else getattr(part, "value", "") for part in name.values]
+        return (parts[0].value if parts else name), template.format("".join(around))
+    return name, template
 
 
 @cache
-def makers_in_the_source() -> frozenset[tuple[str, int]]:
-    """What makes a diagnostic, and which of its arguments is the name."""
+def makers_in_the_source() -> frozenset[Maker]:
+    """All that make a diagnostic."""
     functions = [
         node for module in MODULES for node in ast.walk(module.tree) if isinstance(node, ast.FunctionDef)
     ]
-    makers, before = set(FIRST_MAKERS), set[tuple[str, int]]()
+    makers, before = set(FIRST_MAKERS), set[Maker]()
     while makers != before:
         before = set(makers)
         for function in functions:
             given = parameters(function)
             for call in ast.walk(function):
-                if isinstance(call, ast.Call):
-                    for name in named(call, before):
-                        if isinstance(name, ast.Name) and name.id in given:
-                            makers.add((function.name, given.index(name.id)))
+                for name, template in named(call, before) if isinstance(call, ast.Call) else ():
+                    if isinstance(name, ast.Name) and name.id in given:
+                        makers.add(Maker(function.name, given.index(name.id), template))
     return frozenset(makers)
 
 
 @cache
 def names_in_the_source() -> frozenset[str]:
     """The name of every diagnostic."""
-    makers = set(makers_in_the_source())
+    makers = makers_in_the_source()
     return frozenset(
-        part.value
+        template.format(part.value)
         for module in MODULES
         for call in ast.walk(module.tree)
         if isinstance(call, ast.Call)
-        for name in named(call, makers)
+        for name, template in named(call, makers)
         for part in ast.walk(name)
-        if isinstance(part, ast.Constant) and isinstance(part.value, str) and NAME.fullmatch(part.value)
+        if isinstance(part, ast.Constant)
+        and isinstance(part.value, str)
+        and NAME.fullmatch(template.format(part.value))
     )

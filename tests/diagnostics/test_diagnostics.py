@@ -2,7 +2,8 @@
 
 `NAME.esl`, or `NAME-and-something-more.esl`, is wrong; `NAME.expected` is what
 is said of it. What lies in reader/ is only read; what lies in any other folder
-is loaded, and checked if the loading finds nothing.
+is loaded, and checked if the loading finds nothing. write_expected.py writes
+the expectations anew.
 """
 
 from __future__ import annotations
@@ -57,7 +58,14 @@ def load_or_check(path: Path) -> Iterator[Diagnostic]:
         except Failure:
             pass
     with Interpreter(clock="virtual", output=StringIO()) as interp:
-        yield from interp.check(path.name)
+        yield from interp.check([path.name])
+
+
+def said_of(path: Path) -> tuple[str, list[str]]:
+    """What is said of the program at PATH, and by diagnostics of which names."""
+    found = list(read_only(path) if path.parent.name == "reader" else load_or_check(path))
+    text = "\n".join([render(diagnostic) for diagnostic in found]) + "\n"
+    return text, [diagnostic.name for diagnostic in found]
 
 
 def name_of(path: Path) -> str:
@@ -69,10 +77,9 @@ def name_of(path: Path) -> str:
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
 def test_what_is_said_of(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(path.parent)
-    found = list(read_only(path) if path.parent.name == "reader" else load_or_check(path))
-    said = "\n".join([render(diagnostic) for diagnostic in found]) + "\n"
-    assert said == path.with_suffix(".expected").read_text(encoding="utf-8")
-    assert name_of(path) in [diagnostic.name for diagnostic in found]
+    text, names = said_of(path)
+    assert text == path.with_suffix(".expected").read_text(encoding="utf-8")
+    assert name_of(path) in names
 
 
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
