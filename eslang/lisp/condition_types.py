@@ -74,6 +74,10 @@ class Condition(Failure):
         self.slots = slots
         self.arguments = self._arguments()
 
+    def __str__(self) -> str:
+        """For Python; it may be its own argument, and its report may be Lisp."""
+        return super().__str__() if self.kind.standard else f"failure {self.cause}"
+
     def _arguments(self) -> tuple[Value, ...]:
         """What a recovery clause for it receives: as host errors give it, or the condition itself."""
         if not self.kind.standard:
