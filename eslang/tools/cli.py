@@ -11,7 +11,7 @@ import sys
 
 from eslang.tools.options import COMMANDS, Chosen, Usage, choose, help_text, overview
 
-USAGE, BUG, INTERRUPTED = 2, 70, 130
+FAILED, USAGE, BUG, INTERRUPTED = 1, 2, 70, 130
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -24,8 +24,8 @@ def main(arguments: list[str] | None = None) -> int:
     except Usage as mistake:
         sys.stderr.write(f"esl: {mistake}\nTry `esl --help`.\n")
         return USAGE
-    except BrokenPipeError:
-        return closed_pipe()
+    except OSError as trouble:
+        return output_refused(trouble)
     except KeyboardInterrupt:
         return INTERRUPTED
     except Exception as bug:
@@ -109,12 +109,20 @@ def prepare_streams() -> None:
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:
             reconfigure(encoding="utf-8", errors="backslashreplace", line_buffering=True)
+    reconfigure = getattr(sys.stdin, "reconfigure", None)
+    if reconfigure is not None:
+        reconfigure(encoding="utf-8", errors="surrogateescape")  # wrong bytes get a diagnostic later
 
 
-def closed_pipe() -> int:
-    """Whoever read our output has left: end quietly, and let nothing more be written."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    return 0
+def output_refused(trouble: OSError) -> int:
+    """Standard output takes no more: nothing to say if nobody reads it, else why."""
+    from eslang.tools.opening import reason, silence
+
+    silence(sys.stdout)
+    if isinstance(trouble, BrokenPipeError):
+        return 0
+    sys.stderr.write(f"esl: the output cannot be written: {reason(trouble)}\n")
+    return FAILED
 
 
 def bug_found(bug: Exception) -> int:

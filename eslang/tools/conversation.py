@@ -69,17 +69,19 @@ class Conversation:
 
         With LAST, nothing more will come: an unfinished form is a mistake.
         """
-        source, done = Source("<prompt>", text), 0
-        readings = self.interp.readings(source)
+        done = 0
+        try:
+            readings = self.interp.readings(source_of(text, "<prompt>"))
+        except EslError as error:
+            self.refuse(text, error)
+            return ""
         while True:
             try:
                 reading = next(readings, None)
             except EslError as error:
                 if isinstance(error, IncompleteInput) and not last:
                     return text[done:]
-                if self.echo:
-                    self.show(text[done:].strip())
-                self.complain(error)
+                self.refuse(text[done:], error)
                 return ""
             if reading is None:
                 return ""
@@ -87,6 +89,12 @@ class Conversation:
             if self.echo:
                 self.show(text[start:done])
             self.answer(reading)
+
+    def refuse(self, text: str, error: EslError) -> None:
+        """Say that TEXT cannot be read."""
+        if self.echo:
+            self.show(text.strip())
+        self.complain(error)
 
     def show(self, form: str) -> None:
         """Print FORM behind the prompt, as if it had been typed there."""
@@ -169,6 +177,13 @@ class History:
     def _push(self, name: str, value: Value) -> None:
         first, second, third = (self.cells[name * count] for count in (1, 2, 3))
         third.value, second.value, first.value = second.value, first.value, value
+
+
+def source_of(text: str, name: str) -> Source:
+    """TEXT as a source; an error if some of the bytes that it came from were no UTF-8."""
+    from eslang.reader.reader import decode
+
+    return decode(text.encode("utf-8", "surrogateescape"), name)
 
 
 def extent(text: str, span: Span) -> tuple[int, int]:

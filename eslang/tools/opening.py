@@ -26,24 +26,40 @@ class OutputClosed(Stop):
 
 
 class Outlet:
-    """Standard output. When nobody reads it any more, the run is to end, quietly."""
+    """Standard output. When it takes no more, the run is to end; what is still written then is dropped."""
 
     def __init__(self, stream: TextIO) -> None:
         self.stream = stream
+        self.taken = True
 
     def write(self, text: str) -> None:
         """Write TEXT."""
         try:
-            self.stream.write(text)
-        except BrokenPipeError:
-            raise OutputClosed from None
+            if self.taken:
+                self.stream.write(text)
+        except OSError as trouble:
+            raise self.refused(trouble) from None
 
     def flush(self) -> None:
         """Let everything written so far arrive."""
         try:
-            self.stream.flush()
-        except BrokenPipeError:
-            raise OutputClosed from None
+            if self.taken:
+                self.stream.flush()
+        except OSError as trouble:
+            raise self.refused(trouble) from None
+
+    def refused(self, trouble: OSError) -> Stop:
+        """How the run is to end, now that the output cannot be written."""
+        self.taken = False
+        silence(self.stream)
+        if isinstance(trouble, BrokenPipeError):
+            return OutputClosed()
+        return Stop(f"the output cannot be written: {reason(trouble)}", 1)
+
+
+def silence(stream: TextIO) -> None:
+    """Let what STREAM still holds, and all that will be written to it, vanish."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 @contextmanager

@@ -53,18 +53,18 @@ def load(interp: Any, path: str) -> None:
     if path != "-":
         interp.load(path)
         return
-    from eslang.base.spans import Source
+    from eslang.tools.conversation import source_of
 
-    for reading in interp.readings(Source("<stdin>", sys.stdin.read())):
+    for reading in interp.readings(source_of(sys.stdin.read(), "<stdin>")):
         interp.evaluate(reading)
 
 
 def evaluate_text(interp: Any, text: str) -> None:
     """Evaluate the forms of TEXT and print their values, one a line."""
     from eslang.base.printer import prin1
-    from eslang.base.spans import Source
+    from eslang.tools.conversation import source_of
 
-    for reading in interp.readings(Source("-e", text)):
+    for reading in interp.readings(source_of(text, "-e")):
         for value in interp.evaluate(reading):
             interp.output.fresh_line()
             interp.output.write(prin1(value) + "\n")

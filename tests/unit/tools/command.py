@@ -8,7 +8,7 @@ import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 ROOT = Path(__file__).resolve().parents[3]
 PYTHON = (sys.executable, "-W", "error", "-m", "eslang")
@@ -27,17 +27,11 @@ def environment(**more: str) -> dict[str, str]:
     return {**os.environ, "PYTHONPATH": str(ROOT), **more}
 
 
-def start(*arguments: str, **given: object) -> subprocess.Popen[str]:
-    """The command as a process of its own, with pipes."""
+def start(*arguments: str, **given: Any) -> subprocess.Popen[Any]:
+    """The command as a process of its own, with pipes of text."""
     pipe = subprocess.PIPE
-    options: dict[str, object] = {
-        "stdin": pipe,
-        "stdout": pipe,
-        "stderr": pipe,
-        "env": environment(),
-        **given,
-    }
-    return subprocess.Popen([*PYTHON, *arguments], text=True, **options)  # type: ignore[call-overload,no-any-return]
+    options = {"stdin": pipe, "stdout": pipe, "stderr": pipe, "text": True, **given}
+    return subprocess.Popen([*PYTHON, *arguments], env=environment(), **options)
 
 
 def run(*arguments: str, stdin: str = "", timeout: float = 30) -> Ended:

@@ -179,6 +179,20 @@ def test_a_closed_pipe_ends_the_run_quietly() -> None:
     assert err == ""
 
 
+@pytest.mark.parametrize("arguments", [["run", "-"], ["repl"]])
+def test_bytes_that_are_no_utf_8_get_a_diagnostic(arguments: list[str]) -> None:
+    with start(*arguments, text=False) as running:
+        _, err = running.communicate(b'(print "\xff")\n', 20)
+    assert running.returncode == 65
+    assert b"the byte FF is no UTF-8 here" in err
+
+
+def test_an_output_that_is_full_is_no_bug() -> None:
+    with open("/dev/full", "w") as full, start("run", "-e", "(print 1)", stdout=full) as running:
+        _, err = running.communicate(timeout=20)
+    assert (running.returncode, err) == (1, "esl: the output cannot be written: no space left on device\n")
+
+
 def test_a_plan_may_quit_with_a_code_after_its_cleanups() -> None:
     body = "(with-cleanup-procedure (princ :cleaned) (princ :begun) (terpri) (quit 7) (princ :never))"
     assert call(["-e", body]) == Ended(7, "BEGUN\nCLEANED\n", "")
