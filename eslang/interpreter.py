@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 from eslang import prelude
 from eslang.base.border import to_lisp, to_python
 from eslang.base.control import Stop
+from eslang.base.decoding import decode
 from eslang.base.diagnostics import Diagnostic, EslError, error_at
 from eslang.base.failure import UNBOUND_VARIABLE, Failure
 from eslang.base.image import PACKAGE, Image
@@ -30,7 +31,7 @@ from eslang.compile.support import SUPPORT
 from eslang.devices import widget
 from eslang.facts.unify import Patterns
 from eslang.lisp.loading import LOAD_PATHNAME
-from eslang.lisp.streams import OutputStream
+from eslang.lisp.streams import OutputStream, standard_output
 from eslang.primitives import make_primitive
 from eslang.runtime.bindings import Bindings
 from eslang.runtime.chance import make_chance
@@ -69,7 +70,7 @@ class Interpreter:
         self.seed = seed
         self.clock = make_clock(clock)
         self.chance = make_chance(seed)
-        self.output = OutputStream(output if output is not None else sys.stdout)
+        self.output = OutputStream(output) if output is not None else standard_output()
         self.hooks = Hooks(self.clock.now)
         self.bindings = Bindings(self.image)
         self.dynamic = Dynamic()
@@ -206,7 +207,7 @@ class Interpreter:
 
     def load_file(self, path: str, run: Callable[[Any], Value]) -> None:
         """Load a file, its forms run by RUN. *PACKAGE* and *LOAD-PATHNAME* are as before afterwards."""
-        source = _source(Path(path).read_bytes(), path)
+        source = decode(Path(path).read_bytes(), path)
         cells = self.image.cell(PACKAGE), self.image.cell(LOAD_PATHNAME)
         before = [cell.value for cell in cells]
         cells[1].value = String(path)
@@ -308,7 +309,7 @@ class Interpreter:
             checker = Checker(self.image, lambda unit, code: run_task(unit.load(code)))
             for path in paths:
                 try:
-                    source = _source(Path(path).read_bytes(), str(path))
+                    source = decode(Path(path).read_bytes(), str(path))
                 except EslError as error:
                     checker.found.append(error.diagnostic)
                     continue
@@ -334,16 +335,6 @@ class Interpreter:
 
     def __exit__(self, *error: object) -> None:
         self.close()
-
-
-def _source(text: bytes, name: str) -> Source:
-    """A file's source. The reader is not loaded for it, unless to say what is wrong."""
-    try:
-        return Source(name, text.decode("utf-8-sig"))
-    except UnicodeDecodeError:
-        from eslang.reader.reader import decode
-
-        return decode(text, name)
 
 
 class AtWork:

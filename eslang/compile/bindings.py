@@ -71,7 +71,7 @@ def bindings_of(analyser: Analyser, lst: Value, what: str) -> list[tuple[Symbol,
 
 @special_form("(let bindings &body forms)")
 def let(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Run FORMS with the variables of BINDINGS, all computed before any is bound."""
+    """Run FORMS with BINDINGS, all computed before any is bound."""
     declarations, _, forms = split_body(form.cdr.cdr)
     specials = declared(declarations, SPECIAL_NAME)
     inner = scope.inner()
@@ -155,7 +155,7 @@ def symbol_macrolet(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 
 @special_form("(progv symbols values &body forms)")
 def progv(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Run FORMS with the variables that SYMBOLS gives bound to what VALUES gives."""
+    """Run FORMS with the variables in the list SYMBOLS bound to VALUES."""
     symbols, values = analyser.nodes(Cons(form.cdr.car, Cons(form.cdr.cdr.car, None)), scope)
     scope.procedure.nesting += 2
     body = analyser.body(form.cdr.cdr.cdr, scope)
@@ -172,7 +172,10 @@ def values(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 
 @special_form("(multiple-value-bind variables values-form &body forms)")
 def multiple_value_bind(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Run FORMS with VARIABLES bound to the values of VALUES-FORM; what is missing is NIL."""
+    """Run FORMS with VARIABLES bound to all the values of VALUES-FORM.
+
+    A variable for which there is no value is NIL.
+    """
     source = analyser.nodes(Cons(form.cdr.cdr.car, None), scope)[0]
     declarations, _, forms = split_body(form.cdr.cdr.cdr)
     specials = declared(declarations, SPECIAL_NAME)

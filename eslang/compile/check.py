@@ -25,7 +25,25 @@ from eslang.compile.toplevel import Compiler
 
 VARIABLES = frozenset(("DEFVAR", "DEFPARAMETER", "DEFCONSTANT", "DEFEVENT"))
 DEFINITIONS = frozenset(
-    ["DEFUN", "DEFMACRO", "DEFSTRUCT", "DEFSETF", "DEFINE-SETF-EXPANDER", "DEFINE-MODIFY-MACRO", "DEFINE-CONDITION", "DEFPACKAGE", "DEFTYPE", "IN-PACKAGE", "DEFINE-SYMBOL-MACRO", "DEFINE-FAILURE", "EXPORT", "IMPORT", "USE-PACKAGE", "SHADOW", "SHADOWING-IMPORT"]
+    [
+        "DEFUN",
+        "DEFMACRO",
+        "DEFSTRUCT",
+        "DEFSETF",
+        "DEFINE-SETF-EXPANDER",
+        "DEFINE-MODIFY-MACRO",
+        "DEFINE-CONDITION",
+        "DEFPACKAGE",
+        "DEFTYPE",
+        "IN-PACKAGE",
+        "DEFINE-SYMBOL-MACRO",
+        "DEFINE-FAILURE",
+        "EXPORT",
+        "IMPORT",
+        "USE-PACKAGE",
+        "SHADOW",
+        "SHADOWING-IMPORT",
+    ]
 )
 
 

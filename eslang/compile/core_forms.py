@@ -66,7 +66,9 @@ def unless(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 
 @special_form("(cond &rest clauses)")
 def cond(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Run the forms of the first of CLAUSES, each (TEST . FORMS), whose test is true.
+    """Run the forms of the first of CLAUSES whose test is true.
+
+    A clause is (TEST . FORMS).
 
     Returns: the value of the clause's last form; of the test, if there is none.
     """
@@ -213,11 +215,14 @@ def the(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 
 @special_form("(declare &rest declarations)")
 def declare(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Say something of the variables of the body that this stands at the head of."""
+    """Say something of the variables of the body that this is the head of."""
     analyser.fail("misplaced-declare", "`declare` stands at the head of a body, and nowhere else")
 
 
 @special_form("(eval-when situations &body forms)")
 def eval_when(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Run FORMS; plans are compiled as they are loaded, so all SITUATIONS are one."""
+    """Run FORMS.
+
+    Plans are compiled as they are loaded, so all SITUATIONS are one.
+    """
     return analyser.body(form.cdr.cdr, scope)

@@ -54,7 +54,7 @@ def _record(analyser: Analyser, signature: str, documentation: str | None) -> li
 
 @special_form("(defun name lambda-list &body forms)")
 def defun(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Define NAME as a function with the parameters LAMBDA-LIST and the body FORMS.
+    """Define NAME as a function of LAMBDA-LIST with the body FORMS.
 
     NAME may be (setf place-name). A string at the head of FORMS is its documentation.
     Returns: NAME.
@@ -73,7 +73,7 @@ def defun(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 
 @special_form("(defmacro name lambda-list &body forms)")
 def defmacro(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Define NAME as a macro: FORMS compute what takes the place of a form (NAME . LAMBDA-LIST).
+    """Define NAME as a macro of LAMBDA-LIST, which FORMS expand.
 
     Returns: NAME.
     """

@@ -257,14 +257,14 @@ class ExpressionEmitter(Builder):
         if len(expressions) > 1:
             first = expressions[0] if self.is_stable(expressions[0]) else self.keep(expressions[0])
             for part, expression in zip(node.nodes[1:], expressions[1:], strict=True):
-                if not is_simple(expression) or self.is_outer(part):
-                    self.put(self.effect(expression))
+                if not (isinstance(expression, ast.Constant) or self.is_own(part)):
+                    self.put(self.effect(expression))  # names too: the other variant must find them captured
             return first
         return expressions[0]
 
-    def is_outer(self, node: Node) -> bool:
-        """True if NODE is a variable of an outer procedure: the variant for all values may need to capture it."""
-        return isinstance(node, Local) and node.variable.owner is not self.procedure
+    def is_own(self, node: Node) -> bool:
+        """True if NODE is a variable of this procedure."""
+        return isinstance(node, Local) and node.variable.owner is self.procedure
 
     def value_gather(self, node: core.Gather, many: bool) -> ast.expr:
         function = self.keep(self.value(node.function))

@@ -39,7 +39,7 @@ def leave(scope: Scope, target: Exit) -> bool:
 
 @special_form("(block name &body forms)")
 def block(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Run FORMS; (return-from NAME value) inside them gives VALUE from here at once."""
+    """Run FORMS, which RETURN-FROM may leave by NAME."""
     name = form.cdr.car
     if name is not None and not isinstance(name, Symbol):
         analyser.fail("malformed-form", f"`{prin1(name)}` cannot name a block", hint="write a symbol")
@@ -83,7 +83,9 @@ def _frames(scope: Scope) -> list[Scope]:
 
 @special_form("(tagbody &rest statements)")
 def tagbody(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Run STATEMENTS in order; those that are symbols or integers are tags for GO.
+    """Run STATEMENTS in order.
+
+    Those that are symbols or integers are tags for GO.
 
     Returns: NIL.
     """
@@ -165,7 +167,7 @@ def unwind_protect(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 
 @special_form("(catch tag &body forms)")
 def catch(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Run FORMS; (throw TAG value), however deep inside, gives VALUE from here at once."""
+    """Run FORMS, which a THROW to TAG leaves, however deep inside."""
     tag = analyser.nodes(Cons(form.cdr.car, None), scope)[0]
     body = thunk(analyser, form.cdr.cdr, scope, "catch")
     return Call(analyser.span, CALL_WITH_CATCH, [tag, body])

@@ -261,13 +261,13 @@ def _local_functions(analyser: Analyser, form: Cons, scope: Scope, *, recursive:
 
 @special_form("(flet definitions &body forms)")
 def flet(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Run FORMS with the local functions of DEFINITIONS, which do not see one another."""
+    """Run FORMS with local functions that do not see one another."""
     return _local_functions(analyser, form, scope, recursive=False)
 
 
 @special_form("(labels definitions &body forms)")
 def labels(analyser: Analyser, form: Cons, scope: Scope) -> Node:
-    """Run FORMS with the local functions of DEFINITIONS, which see one another."""
+    """Run FORMS with local functions that see one another."""
     return _local_functions(analyser, form, scope, recursive=True)
 
 

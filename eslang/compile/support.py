@@ -156,7 +156,7 @@ def destructure_end(tail: Value, what: Value) -> Value:
 
 
 def destructure_key(tail: Value, keyword: Symbol) -> Value:
-    """The part of the property list TAIL that begins with KEYWORD's value, or NIL."""
+    """The part of the property list TAIL that begins with KEYWORD's value."""
     while tail is not None:
         if tail.car is keyword:
             return tail.cdr

@@ -15,29 +15,34 @@ from eslang.base.symbols import Keyword
 if TYPE_CHECKING:
     from eslang.interpreter import Interpreter
 
-OK = Keyword("OK")
+OK, BROKEN = Keyword("OK"), Keyword("BROKEN")
 STATUS = "esl::*widget-status*"
 
 
-def install(agent: Interpreter) -> None:
-    """Give an interpreter its widgets."""
-    named: dict[Any, Any] = {}
+class Widgets:
+    """The widgets of one interpreter."""
 
-    def status(widget: Any) -> Any:
-        return agent.value(STATUS) if widget is None else named.get(widget, OK)
+    def __init__(self, agent: Interpreter) -> None:
+        self.agent = agent
+        self.named: dict[Any, Any] = {}
 
-    def change(widget: Any, state: Any) -> None:
+    def status(self, widget: Any) -> Any:
+        """The state of WIDGET: :OK, or how it is broken."""
+        return self.agent.value(STATUS) if widget is None else self.named.get(widget, OK)
+
+    def change(self, widget: Any, state: Any) -> None:
+        """Put WIDGET into STATE."""
         if widget is None:
-            agent.set_value(STATUS, state)
+            self.agent.set_value(STATUS, state)
         else:
-            named[widget] = state
+            self.named[widget] = state
 
-    def say(line: str) -> None:
-        agent.output.fresh_line()
-        agent.output.write(line + "\n")
+    def say(self, line: str) -> None:
+        """Write LINE on a line of its own."""
+        self.agent.output.fresh_line()
+        self.agent.output.write(line + "\n")
 
-    @agent.primitive(signature="(esl::operate-widget &optional widget)")
-    def operate_widget(widget: Any = None) -> None:
+    def operate_widget(self, widget: Any = None) -> None:
         """Operate WIDGET.
 
         Returns: NIL.
@@ -50,12 +55,11 @@ def install(agent: Interpreter) -> None:
 
         Source: ESL §2.3.
         """
-        if status(widget) is not OK:
+        if self.status(widget) is not OK:
             raise Failure("widget-broken", *([] if widget is None else [widget]))
-        say("OPERATING WIDGET SUCCESSFULLY.")
+        self.say("OPERATING WIDGET SUCCESSFULLY.")
 
-    @agent.primitive(signature="(esl::break-widget &optional state widget)")
-    def break_widget(state: Any = None, widget: Any = None) -> Any:
+    def break_widget(self, state: Any = None, widget: Any = None) -> Any:
         """Break WIDGET so that it is in STATE, :broken unless given.
 
         Returns: STATE.
@@ -66,12 +70,11 @@ def install(agent: Interpreter) -> None:
 
         Source: ESL §2.3.
         """
-        state = Keyword("BROKEN") if state is None else state
-        change(widget, state)
+        state = BROKEN if state is None else state
+        self.change(widget, state)
         return state
 
-    @agent.primitive(signature="(esl::attempt-widget-fix state &optional widget)")
-    def attempt_widget_fix(state: Any, widget: Any = None) -> None:
+    def attempt_widget_fix(self, state: Any, widget: Any = None) -> None:
         """Fix WIDGET, which works if STATE is the state that it is in.
 
         Returns: NIL.
@@ -83,14 +86,13 @@ def install(agent: Interpreter) -> None:
 
         Source: ESL §2.3.
         """
-        if status(widget) is state:
-            change(widget, OK)
-            say("Widget is fixed.")
+        if self.status(widget) is state:
+            self.change(widget, OK)
+            self.say("Widget is fixed.")
         else:
-            say("Widget fix didn't work.")
+            self.say("Widget fix didn't work.")
 
-    @agent.primitive(signature="(esl::monitor-widget &optional widget)")
-    def monitor_widget(widget: Any = None) -> Any:
+    def monitor_widget(self, widget: Any = None) -> Any:
         """Wait until WIDGET is broken.
 
         Returns: the state that it is in then.
@@ -98,6 +100,15 @@ def install(agent: Interpreter) -> None:
 
         Source: ESL §4.4.
         """
-        if status(widget) is OK:
+        if self.status(widget) is OK:
             raise Failure("deadlock", "the widget works, and nothing runs that could break it")
-        return status(widget)
+        return self.status(widget)
+
+
+def install(agent: Interpreter) -> None:
+    """Give an interpreter its widgets."""
+    widgets = Widgets(agent)
+    agent.primitive(signature="(esl::operate-widget &optional widget)")(widgets.operate_widget)
+    agent.primitive(signature="(esl::break-widget &optional state widget)")(widgets.break_widget)
+    agent.primitive(signature="(esl::attempt-widget-fix state &optional widget)")(widgets.attempt_widget_fix)
+    agent.primitive(signature="(esl::monitor-widget &optional widget)")(widgets.monitor_widget)

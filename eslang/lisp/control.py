@@ -86,7 +86,10 @@ def _macroexpand_1_many(form: Value, environment: Value = None) -> Value:
 
 @function("(macroexpand-1 form &optional environment)", many=_macroexpand_1_many)
 def macroexpand_1(form: Value, environment: Value = None) -> Value:
-    """Expand the macro form FORM by one step; a second value tells whether it was one."""
+    """Expand the macro form FORM by one step.
+
+    Returns: the expansion, and whether FORM was a macro form.
+    """
     return primary(_expand(form, environment, once=True))
 
 
@@ -96,7 +99,10 @@ def _macroexpand_many(form: Value, environment: Value = None) -> Value:
 
 @function("(macroexpand form &optional environment)", many=_macroexpand_many)
 def macroexpand(form: Value, environment: Value = None) -> Value:
-    """Expand the macro form FORM until it is none; a second value tells whether it was one."""
+    """Expand the macro form FORM until it is none.
+
+    Returns: the expansion, and whether FORM was a macro form.
+    """
     return primary(_expand(form, environment, once=False))
 
 

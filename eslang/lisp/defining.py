@@ -61,7 +61,7 @@ def define_macro(name: Symbol, expander: Value, signature: Value, doc: Value, wh
 
 @function("(%define-variable name kind value documentation where)")
 def define_variable(name: Symbol, kind: Keyword, value: Value, doc: Value, where: Value) -> Value:
-    """Proclaim NAME special; VALUE is a function that computes its value, or NIL for none."""
+    """Proclaim NAME special; VALUE is a function that computes its value."""
     cell = running.session.image.cell(name)
     if cell.constant and kind is not CONSTANT:
         raise simple_error("this is a constant and cannot become a variable:", name)

@@ -172,6 +172,11 @@ define_simple_type("STREAM", lambda value: isinstance(value, (OutputStream, Inpu
 define_simple_type("STRING-STREAM", lambda value: isinstance(value, StringOutputStream))
 
 
+def standard_output() -> OutputStream:
+    """A stream to standard output as it is now."""
+    return OutputStream(sys.stdout)
+
+
 def _standard_output() -> Value:
     return running.session.output
 

@@ -23,6 +23,8 @@ RETRIES, INFINITE = Keyword("RETRIES"), Keyword("INFINITE")
 LAMBDA, QUOTE, OPTIONAL, REST, SYMBOL_MACROLET = (
     Symbol.intern(name, CL) for name in ("LAMBDA", "QUOTE", "&OPTIONAL", "&REST", "SYMBOL-MACROLET")
 )
+RETRY, ABORT = (Symbol.intern(name, ESL) for name in ("RETRY", "ABORT"))
+JUMPS = {op: Symbol.intern(f"%{op.name}-AS-VALUE", ESL) for op in (RETRY, ABORT)}
 THIS_FORM = Symbol.intern("%RECOVERY-FORM", ESL)  # stands, inside a clause, for its form
 
 
@@ -96,8 +98,31 @@ class RecoveryClause:
     def procedure(self, this: Symbol) -> Value:
         """The function of the clause's arguments; (retry) in it means the form THIS."""
         declare = lisp_list(lisp_list(THIS_FORM, this))
-        body = Cons(SYMBOL_MACROLET, Cons(declare, self.body))
+        body = Cons(SYMBOL_MACROLET, Cons(declare, self.with_jump_as_value(this)))
         return lisp_list(LAMBDA, self.lambda_list(), body)
+
+    def with_jump_as_value(self, this: Symbol) -> Value:
+        """The body; a (retry) or (abort) at its end is returned to the runtime, which jumps faster."""
+        forms = []
+        rest = self.body
+        while rest.__class__ is Cons:
+            forms.append(rest.car)
+            rest = rest.cdr
+        if rest is not None or not forms:
+            return self.body
+        last = forms.pop()
+        operator = last.car if last.__class__ is Cons else None
+        own = (
+            operator in JUMPS
+            and self.environment is not None
+            and self.environment.find_function(operator) is None
+        )
+        if own and (last.cdr is None or (operator is ABORT and last.cdr.cdr is None)):
+            result = None if operator is RETRY else last.cdr or Cons(None, None)
+            jump = Cons(JUMPS[operator], Cons(this, result))
+            self.environment.analyser.spans.copy_from(jump, last)
+            last = jump
+        return from_items([*forms, last])
 
     def lambda_list(self) -> Value:
         """Arguments in excess are discarded, missing ones are NIL (ESL §2.1)."""
@@ -121,13 +146,10 @@ class RecoveryClause:
             names += [REST, Symbol.uninterned("EXCESS")]
         return from_items(names)
 
-    def specification(self) -> list[Value]:
-        """The cause, the number of retries (computed at entrance) and the place, as forms."""
-        place = None
+    def place(self) -> Value:
+        """Where the clause stands, as a list."""
         span = self.environment.analyser.spans.of(self.clause) if self.environment is not None else None
-        if span is not None:
-            place = lisp_list(String(span.source.name), *span[1:])
-        return [lisp_list(QUOTE, self.cause), self.limit, lisp_list(QUOTE, place)]
+        return lisp_list(String(span.source.name), *span[1:]) if span is not None else None
 
 
 def refuse(

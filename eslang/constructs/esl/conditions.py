@@ -34,7 +34,7 @@ def test_form(condition: Value, environment: Any) -> Value:
         IF,
         lisp_list(CALLS, lisp_list(QUOTE, condition.car)),
         condition,
-        lisp_list(QUERY, data_form(condition)),
+        lisp_list(QUERY, term_form(condition)),
     )
 
 
@@ -47,9 +47,9 @@ def instance_form(condition: Value, environment: Any) -> Value:
         parts = [instance_form(part, environment) for part in items(condition.cdr)]
         return Cons(LIST, Cons(operator, from_items(parts)))
     if is_operator(condition.car, environment):
-        return data_form(condition)
+        return term_form(condition)
     computed = Cons(LIST, Cons(operator, condition.cdr))
-    return lisp_list(IF, lisp_list(CALLS, operator), computed, data_form(condition))
+    return lisp_list(IF, lisp_list(CALLS, operator), computed, term_form(condition))
 
 
 def is_operator(symbol: Symbol, environment: Any) -> bool:
@@ -60,7 +60,7 @@ def is_operator(symbol: Symbol, environment: Any) -> bool:
     return session.image.cell(symbol).macro is not None or symbol in session.image.special_forms
 
 
-def data_form(term: Value) -> Value:
+def term_form(term: Value) -> Value:
     """A form that gives TERM as data, with the values of its #?variables."""
     if term.__class__ is not Cons:
         return lisp_list(QUOTE, term)
@@ -68,7 +68,7 @@ def data_form(term: Value) -> Value:
         return term
     if not _has_bindings(term):
         return lisp_list(QUOTE, term)
-    return Cons(LIST, from_items([data_form(part) for part in items(term)]))
+    return Cons(LIST, from_items([term_form(part) for part in items(term)]))
 
 
 def _has_bindings(term: Value) -> bool:

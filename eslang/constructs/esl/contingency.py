@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from eslang.base.control import Abort, Retry
 from eslang.base.failure import Failure, control_error, type_error
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.many import many_of
@@ -62,7 +63,10 @@ def fail(cause: Value, *arguments: Value) -> Value:
     """
     if not isinstance(cause, Symbol):
         raise type_error(cause, "SYMBOL", "fail")
-    return failures.fail(cause, *arguments)
+    value = failures.answer(Failure(cause, *arguments), continuable=True)
+    if value.__class__ is Retry or value.__class__ is Abort:
+        raise value
+    return value
 
 
 # --- recovery procedures -------------------------------------------------------------
@@ -104,12 +108,22 @@ def with_recovery_procedures(form: Cons, environment: Any) -> Value:
     warn_of_unreachable(parts, environment)
     this = Symbol.uninterned("FORM")
     procedures = [part.procedure(this) for part in parts]
-    specifications = [lisp_list(LIST, *part.specification()) for part in parts]
     body = Cons(LAMBDA, Cons(None, form.cdr.cdr))
-    call = lisp_list(
-        RECOVER, this, body, Cons(LIST, from_items(specifications)), Cons(LIST, from_items(procedures))
-    )
+    call = lisp_list(RECOVER, this, body, _specifications(parts), *procedures)
     return lisp_list(LET, lisp_list(lisp_list(this, lisp_list(MAKE_FORM))), call)
+
+
+def _specifications(parts: list[RecoveryClause]) -> Value:
+    """The form that gives what is known of the clauses: a constant, unless a number of retries is computed."""
+    if all(part.limit is INFINITE or part.limit.__class__ is int for part in parts):
+        return lisp_list(
+            QUOTE, from_items([lisp_list(part.cause, part.limit, part.place()) for part in parts])
+        )
+    listed = [
+        lisp_list(LIST, lisp_list(QUOTE, part.cause), part.limit, lisp_list(QUOTE, part.place()))
+        for part in parts
+    ]
+    return Cons(LIST, from_items(listed))
 
 
 def _of_this_form(form: Cons, environment: Any, operator: Symbol, name: str, *arguments: Value) -> Value:
@@ -165,37 +179,53 @@ def abort(form: Cons, environment: Any) -> Value:
     return _of_this_form(form, environment, ABORT, "abort", result)
 
 
-@function("(%make-recovery-form)", ESL)
-def make_recovery_form() -> Value:
-    """Give a form that is about to be entered."""
-    return Form()
+function("(%make-recovery-form)", ESL)(Form)
 
 
-def _clauses(specifications: Value, procedures: Value) -> tuple[Clause, ...]:
-    clauses = []
-    while specifications is not None:
-        cause, limit, place = items(specifications.car)
-        if limit is INFINITE:
-            limit = None
-        elif limit.__class__ is not int or limit < 0:
-            raise type_error(limit, "UNSIGNED-BYTE", "with-recovery-procedures")
-        clauses.append(Clause(cause, limit, procedures.car, place))
-        specifications, procedures = specifications.cdr, procedures.cdr
-    return tuple(clauses)
+class Known(dict[int, tuple[Value, tuple[Clause, ...]]]):
+    """The clauses of specifications that were met, by the identity of each; it keeps them alive."""
+
+    MOST = 10_000
+
+    def clauses(self, specifications: Value) -> tuple[Clause, ...]:
+        """The clauses that SPECIFICATIONS tell."""
+        known = self.get(id(specifications))
+        if known is not None:
+            return known[1]
+        if len(self) >= self.MOST:
+            self.clear()
+        clauses = tuple([_clause(*items(specification)) for specification in items(specifications)])
+        self[id(specifications)] = specifications, clauses
+        return clauses
 
 
-def _recover_many(form: Form, body: Value, specifications: Value, procedures: Value) -> Value:
-    return failures.run_form(form, _clauses(specifications, procedures), many_of(body))
+KNOWN = Known()
 
 
-@function("(%call-with-recovery-procedures form body specifications procedures)", ESL, many=_recover_many)
-def call_with_recovery_procedures(form: Form, body: Value, specifications: Value, procedures: Value) -> Value:
-    """Call BODY while PROCEDURES answer its failures."""
-    return failures.run_form(form, _clauses(specifications, procedures), body)
+def _clause(cause: Value, limit: Value, place: Value) -> Clause:
+    if limit is not INFINITE and (limit.__class__ is not int or limit < 0):
+        raise type_error(limit, "UNSIGNED-BYTE", "with-recovery-procedures")
+    return Clause(cause, None if limit is INFINITE else limit, place)
+
+
+def _recover_many(form: Form, body: Value, specifications: Value, *procedures: Value) -> Value:
+    return failures.run_form(form, KNOWN.clauses(specifications), procedures, many_of(body))
+
+
+@function(
+    "(%call-with-recovery-procedures form body specifications &rest procedures)", ESL, many=_recover_many
+)
+def call_with_recovery_procedures(
+    form: Form, body: Value, specifications: Value, *procedures: Value
+) -> Value:
+    """Call BODY while PROCEDURES, of which SPECIFICATIONS tell, answer its failures."""
+    return failures.run_form(form, KNOWN.clauses(specifications), procedures, body)
 
 
 function("(%retry form)", ESL)(failures.retry)
 function("(%abort form result)", ESL)(failures.abort)
+function("(%retry-as-value form)", ESL)(Retry)
+function("(%abort-as-value form result)", ESL)(Abort)
 
 
 # --- inside a recovery procedure -----------------------------------------------------

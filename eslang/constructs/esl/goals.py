@@ -72,7 +72,7 @@ def _then_true(forms: Value) -> Value:
 
 @macro("(achieve condition)", ESL)
 def achieve(form: Cons, environment: Any) -> Value:
-    """Make CONDITION true, unless it is, by the first method whose test is true.
+    """Make CONDITION true, unless it is, by the first method that applies.
 
     Returns: NIL if CONDITION was true already, T if it was made true.
     Fails:   :no-applicable-method if there is no method, or no test is true;
@@ -133,7 +133,9 @@ def _ran(bindings: dict[Symbol, Value], methods: Any) -> bool:
 
 @macro("(logical-binding variable)", ESL)
 def logical_binding(form: Cons, environment: Any) -> Value:
-    """Give what the logic variable VARIABLE is bound to; #?X is (logical-binding ?X).
+    """Give what the logic variable VARIABLE is bound to.
+
+    #?X is read as (logical-binding ?X).
 
     Fails:   :unbound-variable if it is bound to nothing here.
 
