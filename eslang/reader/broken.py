@@ -169,14 +169,3 @@ def _explain_dispatch(source: Source, offset: int) -> EslError:
         "",
         hint=_ELSEWHERE.get(what),
     )
-
-
-def wrong_encoding(source: Source, offset: int, byte: int) -> EslError:
-    """Bytes that are not UTF-8."""
-    return error_at(
-        "wrong-encoding",
-        f"the byte {byte:02X} is no UTF-8 here",
-        point(source, place_at(source, offset)),
-        "",
-        hint="save the file as UTF-8",
-    )

@@ -23,7 +23,7 @@ from eslang.reader.atoms import (
     read_token,
     read_uninterned,
 )
-from eslang.reader.broken import explain_broken, pass_comment, place_at, wrong_encoding
+from eslang.reader.broken import explain_broken, pass_comment, place_at
 from eslang.reader.building import Builder, Elements, Parts, Place
 from eslang.reader.features import FEATURES, is_true, resolve_feature
 from eslang.reader.mistakes import Stuck, explain, explain_token
@@ -65,16 +65,6 @@ def read_at(
     """
     reader = Reader(source, resolve, offset, evaluate)
     return reader.read(), reader.offset
-
-
-def decode(text: bytes, name: str) -> Source:
-    """The source of that name, out of the bytes of a file."""
-    try:
-        return Source(name, text.decode("utf-8-sig"))
-    except UnicodeDecodeError as wrong:
-        before = text[: wrong.start].decode("utf-8-sig")
-        source = Source(name, text.decode("utf-8-sig", "replace"))
-        raise wrong_encoding(source, len(before), text[wrong.start]) from None
 
 
 def skip(package: str | None, name: str, external_only: bool) -> None:

@@ -16,11 +16,12 @@ from pathlib import Path
 import pytest
 from diagnostics.names import names_in_the_source
 
+from eslang.base.decoding import decode
 from eslang.base.diagnostics import Diagnostic, EslError
 from eslang.base.image import PACKAGE, Image
 from eslang.base.render import render
 from eslang.base.resolve import resolve_in
-from eslang.reader.reader import decode, read_forms
+from eslang.reader.reader import read_forms
 from eslang.reader.tables import tables
 from eslang.tools.explain import explanation, sections
 

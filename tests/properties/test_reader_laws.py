@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from hypothesis import given
 from hypothesis import strategies as st
 
+from eslang.base.decoding import decode
 from eslang.base.diagnostics import EslError, IncompleteInput
 from eslang.base.image import PACKAGE, Image
 from eslang.base.lists import Cons
@@ -14,7 +15,7 @@ from eslang.base.printer import prin1
 from eslang.base.resolve import resolve_in
 from eslang.base.spans import Source, Span
 from eslang.base.symbols import Symbol, Value
-from eslang.reader.reader import Reading, decode, read_at, read_forms
+from eslang.reader.reader import Reading, read_at, read_forms
 
 IMAGE = Image()
 IMAGE.cell(PACKAGE).value = IMAGE.packages["ESL-USER"]

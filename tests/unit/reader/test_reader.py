@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from eslang.base.decoding import decode
 from eslang.base.diagnostics import EslError, IncompleteInput
 from eslang.base.image import PACKAGE, Image
 from eslang.base.lists import Cons, items
@@ -13,7 +14,7 @@ from eslang.base.resolve import resolve_in
 from eslang.base.spans import Source
 from eslang.base.symbols import Symbol
 from eslang.base.text import Vector
-from eslang.reader.reader import Reading, decode, read_at, read_forms
+from eslang.reader.reader import Reading, read_at, read_forms
 
 
 def new_image() -> Image:

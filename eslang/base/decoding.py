@@ -1,0 +1,30 @@
+"""Bytes of a file → the text of a source.
+
+All texts are UTF-8. This is apart from the reader, so that a file whose
+compiled code is kept can be opened without loading it.
+"""
+
+from __future__ import annotations
+
+from eslang.base.diagnostics import EslError, error_at
+from eslang.base.spans import Source, Span
+
+
+def decode(text: bytes, name: str) -> Source:
+    """The source of that name, out of the bytes of a file; a byte order mark is dropped."""
+    try:
+        return Source(name, text.decode("utf-8-sig"))
+    except UnicodeDecodeError as wrong:
+        source = Source(name, text.decode("utf-8-sig", "replace"))
+        before = wrong.object[: wrong.start].decode("utf-8")  # without the mark
+        raise _wrong_encoding(source, before, wrong.object[wrong.start]) from None
+
+
+def _wrong_encoding(source: Source, before: str, byte: int) -> EslError:
+    line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+    return error_at(
+        "wrong-encoding",
+        f"the byte {byte:02X} is no UTF-8 here",
+        Span(source, line, column, line, column + 1),
+        hint="save the file as UTF-8",
+    )
