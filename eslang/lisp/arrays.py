@@ -143,28 +143,32 @@ def _store(array: Value, place: int, value: Value) -> Value:
 
 
 @function("(aref array &rest subscripts)")
-def aref(array: Value, *subscripts: Value) -> Value:
+def aref(array: Value, index: Value = UNSUPPLIED, *more: Value) -> Value:
     """Return the element of ARRAY at SUBSCRIPTS, each counted from 0.
 
     Fails: :index-out-of-range, where ARRAY has no such element.
     """
-    if array.__class__ is Vector and len(subscripts) == 1:
-        (index,) = subscripts
-        if index.__class__ is int and 0 <= index < len(array.items):
+    if index.__class__ is int and array.__class__ is Vector and index >= 0 and not more:
+        try:
             return array.items[index]
-    place = row_major_index(array, subscripts)
+        except IndexError:
+            raise index_out_of_range(array, index) from None
+    place = row_major_index(array, () if index is UNSUPPLIED else (index, *more))
     return CHARACTERS[array.text[place]] if array.__class__ is String else array.items[place]
 
 
 @function("(%set-aref array &rest subscripts-and-value)")
-def set_aref(array: Value, *subscripts: Value) -> Value:
+def set_aref(array: Value, index: Value, value: Value = UNSUPPLIED, *more: Value) -> Value:
     """Make the last argument the element of ARRAY at the others; return it."""
-    if array.__class__ is Vector and len(subscripts) == 2:
-        index, value = subscripts
-        if index.__class__ is int and 0 <= index < len(array.items):
+    direct = not more and value is not UNSUPPLIED
+    if direct and index.__class__ is int and array.__class__ is Vector and index >= 0:
+        try:
             array.items[index] = value
-            return value
-    return _store(array, row_major_index(array, subscripts[:-1]), subscripts[-1])
+        except IndexError:
+            raise index_out_of_range(array, index) from None
+        return value
+    *subscripts, value = (index, *more) if value is UNSUPPLIED else (index, value, *more)
+    return _store(array, row_major_index(array, tuple(subscripts)), value)
 
 
 @function("(svref vector index)")

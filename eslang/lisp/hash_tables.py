@@ -68,10 +68,17 @@ def gethash(key: Value, table: Value, default: Value = None) -> Value:
 
 
 @function("(%set-gethash key hash-table &rest default-and-value)")
-def set_gethash(key: Value, table: Value, *default_and_value: Value) -> Value:
+def set_gethash(key: Value, table: Value, value: Value, *more: Value) -> Value:
     """Let HASH-TABLE hold VALUE, the last argument, under KEY; return VALUE."""
-    check_table(table, "GETHASH").put(key, default_and_value[-1])
-    return default_and_value[-1]
+    if more:
+        (value,) = more  # what came before it was a default
+    if table.__class__ is not HashTable:
+        raise type_error(table, "HASH-TABLE", "GETHASH")
+    if key.__class__ in PLAIN:
+        table.entries[key] = value
+    else:
+        table.put(key, value)
+    return value
 
 
 @function("(remhash key hash-table)")

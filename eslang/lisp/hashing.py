@@ -133,6 +133,10 @@ class HashTable(Datum):
         self.entries: dict[Any, Value] = {}
         self.originals: dict[Any, Value] = {}
 
+    def print_lisp(self, settings: Any) -> str:
+        """How the printer shows a table."""
+        return f"#<HASH-TABLE :TEST {self.test} :COUNT {len(self.entries)}>"
+
     def get(self, key: Value, default: Value = None) -> Value:
         """What is held under KEY, or DEFAULT."""
         return self.entries.get(key if key.__class__ in PLAIN else self.key_of(key), default)

@@ -16,7 +16,7 @@ from eslang.base.symbols import Symbol, Value
 from eslang.base.text import CHARACTERS, Character, String, Vector
 from eslang.compile.registry import function
 from eslang.lisp.arguments import check_index, take_keys
-from eslang.lisp.conses import nreconc
+from eslang.lisp.conses import nreconc, revappend
 from eslang.lisp.types import expand_type
 
 Builder = Callable[[list[Value]], Value]
@@ -259,6 +259,8 @@ def reverse(sequence: Value) -> Value:
     """Return the elements of SEQUENCE in the opposite order."""
     if sequence.__class__ is String:
         return String(sequence.text[::-1])
+    if sequence.__class__ is Cons:
+        return revappend(sequence, None)
     return like(sequence, elements(sequence)[::-1])
 
 

@@ -77,6 +77,8 @@ def test_subscripts_are_integers_and_as_many_as_dimensions() -> None:
         call("aref", (1, 2))
     with fails("ERROR"):
         call("aref", matrix(), 0)
+    with fails("ERROR"):
+        call("%set-aref", (1, 2), 0)
     for wrong in (1.0, None):
         with fails("TYPE-ERROR"):
             call("aref", (1, 2), wrong)

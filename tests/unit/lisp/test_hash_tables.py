@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from values import call, char, fails, fn, lisp, many, python, raw, symbol
 
 from eslang.base.lists import Cons
+from eslang.base.printer import prin1
 from eslang.base.ratios import Ratio
 
 atoms = st.integers(-3, 3) | st.floats(-3, 3, width=16) | st.text("aB", max_size=2) | st.booleans()
@@ -124,6 +125,10 @@ def test_a_walk_may_remove_and_add() -> None:
 
     call("maphash", change, made)
     assert call("%hash-table-keys", made) == [1, 2]
+
+
+def test_a_table_prints_its_test_and_size() -> None:
+    assert prin1(table("equal", a=1)) == "#<HASH-TABLE :TEST EQUAL :COUNT 1>"
 
 
 def test_removing_and_clearing() -> None:
