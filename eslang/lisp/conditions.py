@@ -179,23 +179,26 @@ _define_standard_readers(
 # --- signalling ----------------------------------------------------------------------
 
 
-def _clauses(entries: Value) -> tuple[Clause, ...]:
-    """The clauses of HANDLER-BIND: a list of conses (type . function)."""
-    return tuple(_clause(entry.car, to_function(entry.cdr)) for entry in items(entries))
+def _clauses(entries: Value) -> tuple[tuple[Clause, ...], tuple[Any, ...]]:
+    """The clauses of HANDLER-BIND, a list of conses (type . function), and their functions."""
+    listed = items(entries)
+    return tuple([_clause(entry.car) for entry in listed]), tuple(
+        [to_function(entry.cdr) for entry in listed]
+    )
 
 
-def _clause(specifier: Value, procedure: Any) -> Clause:
-    return Clause(specifier, None, procedure, None, lambda failure: is_condition_of(failure, specifier))
+def _clause(specifier: Value) -> Clause:
+    return Clause(specifier, None, None, lambda failure: is_condition_of(failure, specifier))
 
 
 def _call_with_clauses_many(clauses: Value, thunk: Value) -> Value:
-    return run_form(Form(), _clauses(clauses), many_of(thunk))
+    return run_form(Form(), *_clauses(clauses), many_of(thunk))
 
 
 @function("(%call-with-clauses clauses thunk)", many=_call_with_clauses_many)
 def call_with_clauses(clauses: Value, thunk: Value) -> Value:
     """Call THUNK while CLAUSES, conses (type . function), are told of conditions; they may jump."""
-    return run_form(Form(), _clauses(clauses), thunk)
+    return run_form(Form(), *_clauses(clauses), thunk)
 
 
 @function("(error datum &rest arguments)")
@@ -222,9 +225,9 @@ def offer(condition: Value) -> Value:
     try:
         while form is not None:
             dynamic.forms = form.outer
-            for clause in form.clauses:
+            for clause, procedure in zip(form.clauses, form.procedures, strict=True):
                 if clause.takes is not None and clause.takes(condition):
-                    clause.procedure(condition)
+                    procedure(condition)
             form = form.outer
     finally:
         dynamic.forms = innermost
