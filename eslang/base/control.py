@@ -14,11 +14,11 @@ from eslang.base.symbols import Value
 class Unwind(BaseException):
     """A jump out to TARGET, a place that is still on the stack."""
 
+    failed = False
+
     def __init__(self, target: object, value: Value = None) -> None:
-        super().__init__()
         self.target = target
         self.value = value
-        self.failed = False
 
 
 class ReturnFrom(Unwind):

@@ -28,11 +28,11 @@ GENERAL_FAILURE = Keyword("GENERAL-FAILURE")
 class Failure(Exception):
     """A plan did not succeed: a cause (a keyword) and the arguments that came with it."""
 
+    story: Any = None  # what the runtime noted of it: where, who was asked (runtime/story.py)
+
     def __init__(self, cause: Any, *arguments: Any) -> None:
-        super().__init__(cause, *arguments)
         self.cause: Any = Keyword(cause) if isinstance(cause, str) else cause
         self.arguments: tuple[Any, ...] = arguments
-        self.story: Any = None  # what the runtime noted of it: where, who was asked (failures.Story)
 
     def __str__(self) -> str:
         shown = " ".join([str(self.cause), *(str(a) for a in self.arguments)])

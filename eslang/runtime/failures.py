@@ -44,15 +44,15 @@ HOST_CAUSES = (
     PYTHON_ERROR,
     CONTROL_ERROR,
 )
+JUMP = object()  # what `answer` returns instead of a jump
 HEADROOM = 20_000  # frames that a procedure answering :stack-exhausted may use
 
 
 class Clause(NamedTuple):
-    """One recovery procedure: the cause it answers and how often it may be invoked."""
+    """What is known of a recovery procedure from the text: its cause, and how often it may be invoked."""
 
     cause: Value
     limit: int | None  # None: :infinite
-    procedure: Callable[..., Value]
     place: Value  # a list, as the compiler noted it
     takes: Callable[[Failure], bool] | None = (
         None  # HANDLER-BIND's own test; such a clause declines by returning
@@ -60,26 +60,28 @@ class Clause(NamedTuple):
 
 
 class Form:
-    """One entrance of a form that answers failures: its clauses, and how often each was used."""
+    """One entrance of a form that answers failures: its clauses, their procedures, and how often each was used."""
 
-    __slots__ = ("clauses", "live", "outer", "used")
+    __slots__ = ("clauses", "live", "outer", "procedures", "used")
+    outer: Form | None
+    clauses: tuple[Clause, ...]
+    procedures: tuple[Callable[..., Value], ...]
+    used: list[int]
 
     def __init__(self) -> None:
-        self.outer: Form | None = None
-        self.clauses: tuple[Clause, ...] = ()
-        self.used: list[int] = []
         self.live = False
 
 
 class Dynamic:
     """What the running task has on its stack for failures to meet."""
 
-    __slots__ = ("answering", "catches", "forms", "logical")
+    __slots__ = ("answering", "catches", "forms", "jumps", "logical")
 
     def __init__(self) -> None:
         self.forms: Form | None = None
         self.answering: list[Failure] = []  # innermost last
         self.catches: list[tuple[Value, Any]] = []  # (tag, token), innermost last
+        self.jumps: list[Unwind] = []  # the one that is about to be raised
         self.logical: dict[Value, Value] = {}  # what logic variables are bound to
 
 
@@ -119,10 +121,23 @@ def fail(cause: Value, *arguments: Value) -> Value:
 
 
 def signal(failure: Failure, *, continuable: bool) -> Value:
-    """Call the active recovery procedures for FAILURE, from the innermost form outward."""
+    """Call the active recovery procedures for FAILURE; jump if one of them asks for it."""
+    value = answer(failure, continuable=continuable)
+    if value is JUMP:
+        raise running.session.dynamic.jumps.pop()
+    return value
+
+
+def answer(failure: Failure, *, continuable: bool) -> Value:
+    """Call the active recovery procedures for FAILURE, from the innermost form outward.
+
+    A procedure that ends with a jump may return it, a Retry or an Abort. It is
+    put on dynamic.jumps, and JUMP returned: the caller is to raise it. The
+    fewer frames a jump passes, the faster it is; and no frame that it passes
+    may hold it in a variable, or a circle of references would keep both.
+    """
     session = running.session
     dynamic: Dynamic = session.dynamic
-    hooks = session.hooks
     innermost = form = dynamic.forms
     start = 0
     while form is not None:
@@ -132,57 +147,74 @@ def signal(failure: Failure, *, continuable: bool) -> Value:
             continue
         clause = form.clauses[index]
         if clause.takes is not None:
-            _call(dynamic, form, clause, failure)
+            _call(dynamic, form.outer, form.procedures[index], failure, (failure,))
             start = index + 1
             continue
         form.used[index] += 1
-        if hooks.listeners:
+        if session.hooks.listeners:
             left = None if clause.limit is None else clause.limit - form.used[index]
-            hooks.tell("recovery", as_place(clause.place), failure=failure, left=left)
-        value = _call(dynamic, form, clause, failure)
+            session.hooks.tell("recovery", as_place(clause.place), failure=failure, left=left)
+        value = _call(dynamic, form, form.procedures[index], failure, failure.arguments)
+        if value.__class__ is Retry or value.__class__ is Abort:
+            value.failed = True
+            dynamic.jumps.append(value)
+            return JUMP
         if continuable:
             return value
         form, start = form.outer, 0
     failure.story = tell_story(failure, innermost, session.causes)
-    if hooks.listeners:
-        hooks.tell("failure", failure.story.place, failure=failure)
+    if session.hooks.listeners:
+        session.hooks.tell("failure", failure.story.place, failure=failure)
     raise Failed(failure)
 
 
 def _clause_for(form: Form, failure: Failure, causes: Causes, start: int) -> int | None:
     """The number of the first clause of FORM, from START on, for FAILURE that may still be invoked."""
-    for index in range(start, len(form.clauses)):
-        clause = form.clauses[index]
-        if clause.takes is not None:
-            if clause.takes(failure):
+    clauses, used = form.clauses, form.used
+    for index in range(start, len(clauses)):
+        cause, limit, _, takes = clauses[index]
+        if takes is not None:
+            if takes(failure):
                 return index
-        elif (clause.limit is None or form.used[index] < clause.limit) and causes.answers(
-            clause.cause, failure.cause
+        elif (limit is None or used[index] < limit) and (
+            cause is failure.cause or causes.answers(cause, failure.cause)
         ):
             return index
     return None
 
 
-def _call(dynamic: Dynamic, form: Form, clause: Clause, failure: Failure) -> Value:
-    """Call a recovery procedure, with the chain set back to its own form."""
-    saved = dynamic.forms
-    dynamic.forms = form.outer if clause.takes is not None else form
+def _call(
+    dynamic: Dynamic, form: Form | None, procedure: Callable[..., Value], failure: Failure, arguments: Any
+) -> Value:
+    """Call a recovery procedure, with the chain set back to FORM."""
+    if failure.cause is STACK_EXHAUSTED:
+        procedure = _with_headroom(procedure)
+    saved, dynamic.forms = dynamic.forms, form
     dynamic.answering.append(failure)
-    exhausted = failure.cause is STACK_EXHAUSTED
-    if exhausted:
-        sys.setrecursionlimit(sys.getrecursionlimit() + HEADROOM)
     try:
-        if clause.takes is not None:
-            return clause.procedure(failure)
-        return clause.procedure(*failure.arguments)
-    except Unwind as jump:
-        jump.failed = True
-        raise
-    finally:
-        if exhausted:
-            sys.setrecursionlimit(sys.getrecursionlimit() - HEADROOM)
+        value = procedure(*arguments)
+    except BaseException as jump:
         dynamic.answering.pop()
         dynamic.forms = saved
+        if isinstance(jump, Unwind):
+            jump.failed = True
+        raise
+    dynamic.answering.pop()
+    dynamic.forms = saved
+    return value
+
+
+def _with_headroom(procedure: Callable[..., Value]) -> Callable[..., Value]:
+    """PROCEDURE, with more of the stack for itself."""
+
+    def higher(*arguments: Value) -> Value:
+        sys.setrecursionlimit(sys.getrecursionlimit() + HEADROOM)
+        try:
+            return procedure(*arguments)
+        finally:
+            sys.setrecursionlimit(sys.getrecursionlimit() - HEADROOM)
+
+    return higher
 
 
 def signal_error(error: Exception) -> None:
@@ -194,18 +226,27 @@ def signal_error(error: Exception) -> None:
 # --- forms ---------------------------------------------------------------------------
 
 
-def run_form(form: Form, clauses: tuple[Clause, ...], body: Callable[[], Value]) -> Value:
-    """Run BODY while CLAUSES answer its failures; again after each (retry)."""
+def run_form(
+    form: Form,
+    clauses: tuple[Clause, ...],
+    procedures: tuple[Callable[..., Value], ...],
+    body: Callable[[], Value],
+) -> Value:
+    """Run BODY while PROCEDURES, one for each of CLAUSES, answer its failures; again after each (retry)."""
     dynamic: Dynamic = running.session.dynamic
     outer = form.outer = dynamic.forms
     form.clauses = clauses
+    form.procedures = procedures
     form.used = [0] * len(clauses)
     form.live = True
     try:
         while True:
             dynamic.forms = form
             try:
-                return _guarded(body)
+                try:
+                    return body()
+                except Exception as error:
+                    return signal_error(error)
             except Retry as jump:
                 if jump.target is not form:
                     raise

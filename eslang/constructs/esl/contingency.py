@@ -64,8 +64,8 @@ def fail(cause: Value, *arguments: Value) -> Value:
     if not isinstance(cause, Symbol):
         raise type_error(cause, "SYMBOL", "fail")
     value = failures.answer(Failure(cause, *arguments), continuable=True)
-    if value.__class__ is Retry or value.__class__ is Abort:
-        raise value
+    if value is failures.JUMP:
+        raise running.session.dynamic.jumps.pop()
     return value
 
 
