@@ -6,8 +6,10 @@ which does the work.
 
 from __future__ import annotations
 
+from weakref import WeakKeyDictionary
+
 from eslang.base.failure import type_error
-from eslang.base.image import PACKAGE
+from eslang.base.image import PACKAGE, Image
 from eslang.base.many import Values
 from eslang.base.printer import WriteSettings, write_text
 from eslang.base.running import running
@@ -58,13 +60,36 @@ def _settings_of(values: list[Value]) -> WriteSettings:
     )
 
 
+class _Kept:
+    """The printer variables of one image, and the settings last made of them, by their ESCAPE."""
+
+    __slots__ = ("cells", "settings", "values")
+
+    def __init__(self, image: Image) -> None:
+        self.cells = [image.cell(symbol) for symbol in (*_VARIABLES, PACKAGE)]
+        self.values: list[Value] = []
+        self.settings: dict[bool | None, WriteSettings] = {}
+
+
+_KEPT: WeakKeyDictionary[Image, _Kept] = WeakKeyDictionary()
+
+
 def current_settings(escape: bool | None = None) -> WriteSettings:
     """What the printer variables say now; ESCAPE, if given, stands above them."""
-    cell = running.session.image.cell
-    settings = _settings_of([cell(symbol).value for symbol in _VARIABLES])
-    if escape is None or escape == settings.escape:
-        return settings
-    return settings._replace(escape=escape, readably=settings.readably and escape)
+    image = running.session.image
+    kept = _KEPT.get(image)
+    if kept is None:
+        kept = _KEPT[image] = _Kept(image)
+    values = [cell.value for cell in kept.cells]
+    if values != kept.values:
+        kept.values, kept.settings = values, {}
+    settings = kept.settings.get(escape)
+    if settings is None:
+        settings = _settings_of(values[:-1])
+        if escape is not None and escape != settings.escape:
+            settings = settings._replace(escape=escape, readably=settings.readably and escape)
+        kept.settings[escape] = settings
+    return settings
 
 
 def prin1_text(value: Value) -> str:
