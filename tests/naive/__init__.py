@@ -1,0 +1,1 @@
+"""A naive evaluator of programs, for comparison with compiled code."""
