@@ -14,6 +14,7 @@ from eslang.lisp.streams import OutputStream, StringOutputStream
 GO_ON = 0
 LEAVE = 1  # ~^: out of the iteration's step, the justification or the whole string
 LEAVE_ALL = 2  # ~:^: out of the iteration
+_MOST = 10_000_000  # no width or count is larger
 
 
 class Run:
@@ -74,6 +75,8 @@ class Run:
             if value is not None and value.__class__ is not expected and default is not ANY:
                 what = "a character" if expected is Character else "an integer"
                 raise directive.wrong(f"a parameter is not {what}", value)
+            if value.__class__ is int and abs(value) > _MOST:
+                raise directive.wrong("a parameter is too large", value)
         return values
 
     def _given(self, parameter: str, directive: Directive) -> Value:
