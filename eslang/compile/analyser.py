@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, NoReturn
 from eslang.base.diagnostics import Diagnostic, EslError, Label
 from eslang.base.image import Image
 from eslang.base.lists import Cons
-from eslang.base.printer import prin1
+from eslang.base.shown import shown
 from eslang.base.spans import Span, Spans
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.base.text import String
@@ -89,7 +89,7 @@ class Analyser:
     def variable(self, symbol: Symbol, scope: Scope) -> Variable:
         """A new lexical variable, bound in SCOPE."""
         if isinstance(symbol, Keyword) or symbol is T or self.image.cell(symbol).constant:
-            self.fail("constant-assignment", f"`{prin1(symbol)}` is a constant and cannot be bound")
+            self.fail("constant-assignment", f"`{shown(symbol)}` is a constant and cannot be bound")
         variable = self.unnamed_variable(symbol, scope)
         scope.variables[symbol] = variable
         return variable
@@ -190,7 +190,7 @@ class Analyser:
             return Funcall(self.span, self.node(operator, scope), self.nodes(form.cdr, scope), known=True)
         self.fail(
             "bad-operator",
-            f"`{prin1(operator)}` cannot be called",
+            f"`{shown(operator)}` cannot be called",
             self.spans.element(form),
             "expected the name of a function, a macro or a special form",
             hint="quote the list if it is meant as a value" if not isinstance(operator, String) else None,

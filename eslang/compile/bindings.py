@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from eslang.base.lists import Cons
-from eslang.base.printer import prin1
+from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.compile.analyser import Analyser
 from eslang.compile.core import (
@@ -37,7 +37,7 @@ def binding_parts(analyser: Analyser, binding: Value, what: str) -> tuple[Symbol
     if binding.__class__ is not Cons or not isinstance(binding.car, Symbol):
         analyser.fail(
             "malformed-binding",
-            f"`{prin1(binding)}` is no binding of `{what}`",
+            f"`{shown(binding)}` is no binding of `{what}`",
             hint="write `(name form)`",
         )
     rest = binding.cdr
@@ -46,7 +46,7 @@ def binding_parts(analyser: Analyser, binding: Value, what: str) -> tuple[Symbol
     if rest.__class__ is not Cons or rest.cdr is not None:
         analyser.fail(
             "malformed-binding",
-            f"the binding of `{prin1(binding.car)}` has more than one form",
+            f"the binding of `{shown(binding.car)}` has more than one form",
             analyser.spans.of(binding),
             hint="write `(name form)`",
         )
@@ -63,7 +63,7 @@ def bindings_of(analyser: Analyser, lst: Value, what: str) -> list[tuple[Symbol,
     if rest is not None:
         analyser.fail(
             "malformed-binding",
-            f"`{prin1(rest)}` is no list of bindings",
+            f"`{shown(rest)}` is no list of bindings",
             hint=f"write `({what} ((name form)) ...)`",
         )
     return result
@@ -187,7 +187,7 @@ def multiple_value_bind(analyser: Analyser, form: Cons, scope: Scope) -> Node:
         symbol = rest.car
         if not isinstance(symbol, Symbol) or isinstance(symbol, Keyword):
             analyser.fail(
-                "malformed-binding", f"`{prin1(symbol)}` is no variable", analyser.spans.element(rest)
+                "malformed-binding", f"`{shown(symbol)}` is no variable", analyser.spans.element(rest)
             )
         if is_special(analyser, symbol, specials):
             waiting = analyser.unnamed_variable(symbol, inner)

@@ -8,7 +8,7 @@ bindings.py, functions are functions.py.
 from __future__ import annotations
 
 from eslang.base.lists import Cons, items
-from eslang.base.printer import prin1
+from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.compile.analyser import Analyser
 from eslang.compile.core import (
@@ -81,7 +81,7 @@ def cond(analyser: Analyser, form: Cons, scope: Scope) -> Node:
         analyser.span = analyser.spans.of(clause) or analyser.spans.element(rest) or around
         if clause.__class__ is not Cons:
             analyser.fail(
-                "malformed-form", f"`{prin1(clause)}` is no clause of `cond`", hint="write `(test form...)`"
+                "malformed-form", f"`{shown(clause)}` is no clause of `cond`", hint="write `(test form...)`"
             )
         test = analyser.nodes(Cons(clause.car, None), scope)[0]
         parts.append((test, analyser.body(clause.cdr, scope) if clause.cdr is not None else None))
@@ -123,14 +123,14 @@ def setq(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     rest = form.cdr
     while rest is not None:
         if rest.cdr is None:
-            analyser.fail("malformed-form", f"`setq` has no value for `{prin1(rest.car)}`")
+            analyser.fail("malformed-form", f"`setq` has no value for `{shown(rest.car)}`")
         symbol = rest.car
         if not isinstance(symbol, Symbol) or isinstance(symbol, Keyword) or symbol is T:
             analyser.fail(
                 "constant-assignment",
-                f"`{prin1(symbol)}` is no variable",
+                f"`{shown(symbol)}` is no variable",
                 analyser.spans.element(rest),
-                hint=f"write `(setf {prin1(symbol).lower()} ...)`" if symbol.__class__ is Cons else None,
+                hint=f"write `(setf {shown(symbol)} ...)`" if symbol.__class__ is Cons else None,
             )
         nodes.append(assignment(analyser, symbol, rest.cdr, scope))
         rest = rest.cdr.cdr
@@ -154,7 +154,7 @@ def assignment(analyser: Analyser, symbol: Symbol, holder: Cons, scope: Scope) -
         found.assigned = True
         return SetLocal(analyser.span, found, value)
     if analyser.image.cell(symbol).constant:
-        analyser.fail("constant-assignment", f"`{prin1(symbol)}` is a constant and cannot be set")
+        analyser.fail("constant-assignment", f"`{shown(symbol)}` is a constant and cannot be set")
     if found is None:
         analyser.use("assignment", symbol, None, symbol, scope)
     return SetGlobal(analyser.span, symbol, value)

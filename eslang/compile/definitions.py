@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from eslang.base.lists import Cons, lisp_list
 from eslang.base.printer import prin1
+from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.base.text import String
 from eslang.compile.analyser import Analyser
@@ -33,12 +34,12 @@ def _name(analyser: Analyser, form: Cons, what: str) -> Symbol:
     name = form.cdr.car
     if not isinstance(name, Symbol) or isinstance(name, Keyword) or name is T:
         analyser.fail(
-            "malformed-form", f"`{prin1(name)}` cannot name a {what}", analyser.spans.element(form.cdr)
+            "malformed-form", f"`{shown(name)}` cannot name a {what}", analyser.spans.element(form.cdr)
         )
     if what != "variable" and name in analyser.image.special_forms:
         analyser.fail(
             "redefined-special-form",
-            f"`{prin1(name).lower()}` is a special form and cannot be redefined",
+            f"`{shown(name)}` is a special form and cannot be redefined",
             analyser.spans.element(form.cdr),
         )
     return name
@@ -61,12 +62,12 @@ def defun(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     """
     setf = setf_name(form.cdr.car)
     name = setf or _name(analyser, form, "function")
-    shown = prin1(form.cdr.car).lower()
-    around, analyser.definition = analyser.definition, f"`{shown}`"
+    title = prin1(form.cdr.car).lower()
+    around, analyser.definition = analyser.definition, f"`{title}`"
     lst, forms = form.cdr.cdr.car, form.cdr.cdr.cdr
     node = function_node(analyser, name.name, lst, forms, scope, name, named=True)
     analyser.definition = around
-    record = _record(analyser, f"({shown} {parameter_names(lst)}".rstrip() + ")", node.documentation)
+    record = _record(analyser, f"({title} {parameter_names(lst)}".rstrip() + ")", node.documentation)
     define = DEFINE_SETF if setf is not None else DEFINE_FUNCTION
     return Call(analyser.span, define, [Const(analyser.span, name), node, *record])
 
@@ -81,7 +82,7 @@ def defmacro(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     lst, forms = form.cdr.cdr.car, form.cdr.cdr.cdr
     checked_lambda_list(analyser, lst, destructuring=True)
     _, documentation, _ = split_body(forms, documented=True)
-    around, analyser.definition = analyser.definition, f"`{prin1(name).lower()}`"
+    around, analyser.definition = analyser.definition, f"`{shown(name)}`"
     expander = macro_lambda(analyser, name, lst, forms)
     node = function_node(analyser, f"macro {name.name}", expander.cdr.car, expander.cdr.cdr, scope)
     analyser.definition = around
@@ -93,17 +94,17 @@ def defmacro(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 
 def _macro_parameters(lst: Value) -> str:
     """The lambda list as it stands, but for &environment and &whole."""
-    shown: list[str] = []
+    words: list[str] = []
     while lst.__class__ is Cons:
         element = lst.car
         if isinstance(element, Symbol) and element.name in ("&ENVIRONMENT", "&WHOLE"):
             lst = lst.cdr.cdr
             continue
-        if element.__class__ is Cons and shown and any(m in shown for m in ("&optional", "&key")):
+        if element.__class__ is Cons and words and any(m in words for m in ("&optional", "&key")):
             element = element.car if isinstance(element.car, Symbol) else element
-        shown.append(prin1(element).lower())
+        words.append(prin1(element).lower())
         lst = lst.cdr
-    return " ".join(shown) if lst is None else " ".join([*shown, "&rest", prin1(lst).lower()])
+    return " ".join(words) if lst is None else " ".join([*words, "&rest", prin1(lst).lower()])
 
 
 def _variable(analyser: Analyser, form: Cons, scope: Scope, kind: str) -> Node:

@@ -7,7 +7,7 @@ A pattern becomes LET* bindings that walk the list with a few small functions
 from __future__ import annotations
 
 from eslang.base.lists import Cons, from_items, lisp_list
-from eslang.base.printer import prin1
+from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.analyser import LAMBDA, Analyser
 from eslang.compile.core import Node
@@ -63,8 +63,8 @@ class _Pattern:
         try:
             return parse_lambda_list(lst, destructuring=True)
         except BadLambdaList as mistake:
-            shown = f": `{prin1(mistake.element).lower()}`" if mistake.element is not None else ""
-            self.analyser.fail("malformed-lambda-list", mistake.message + shown, self.analyser.spans.of(lst))
+            named = f": `{shown(mistake.element)}`" if mistake.element is not None else ""
+            self.analyser.fail("malformed-lambda-list", mistake.message + named, self.analyser.spans.of(lst))
 
     def parts(self, parts: LambdaList, form: Value) -> None:
         what = lisp_list(QUOTE, self.what)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from eslang.base.lists import Cons
 from eslang.base.printer import prin1
+from eslang.base.shown import shown
 from eslang.base.suggest import nearest
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.analyser import Analyser
@@ -42,7 +43,7 @@ def block(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     """Run FORMS, which RETURN-FROM may leave by NAME."""
     name = form.cdr.car
     if name is not None and not isinstance(name, Symbol):
-        analyser.fail("malformed-form", f"`{prin1(name)}` cannot name a block", hint="write a symbol")
+        analyser.fail("malformed-form", f"`{shown(name)}` cannot name a block", hint="write a symbol")
     return named_block(analyser, name, form.cdr.cdr, scope)
 
 
@@ -67,7 +68,7 @@ def return_from(analyser: Analyser, form: Cons, scope: Scope) -> Node:
         close = nearest(prin1(name), names)
         analyser.fail(
             "unknown-block",
-            f"no block `{prin1(name).lower()}` is around this `return-from`",
+            f"no block `{shown(name)}` is around this `return-from`",
             hint=f"write `{close.lower()}`" if close else None,
         )
     value = analyser.nodes(form.cdr.cdr, scope) or [Const(analyser.span, None)]
@@ -99,7 +100,7 @@ def tagbody(analyser: Analyser, form: Cons, scope: Scope) -> Node:
             parts[-1].append(rest)
         else:
             if statement in inner.tags:
-                analyser.fail("duplicate-tag", f"the tag `{prin1(statement)}` stands here twice")
+                analyser.fail("duplicate-tag", f"the tag `{shown(statement)}` stands here twice")
             parts.append([])
             inner.tags[statement] = (target, len(parts) - 1)
         rest = rest.cdr
@@ -121,7 +122,7 @@ def go(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     tag = form.cdr.car
     found = scope.find_tag(tag)
     if found is None:
-        analyser.fail("unknown-tag", f"no tag `{prin1(tag).lower()}` is around this `go`")
+        analyser.fail("unknown-tag", f"no tag `{shown(tag)}` is around this `go`")
     target, segment = found
     return Go(analyser.span, target, segment, leave(scope, target))
 

@@ -10,6 +10,7 @@ from eslang.base.failure import Failure
 from eslang.base.image import Image
 from eslang.base.lists import Cons
 from eslang.base.printer import prin1
+from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.core import Variable
 from eslang.compile.scope import LocalMacro, Scope, SymbolMacro
@@ -29,10 +30,10 @@ def expand_macro(form: Cons, expander: Any, scope: Scope, analyser: Analyser) ->
         failure = failed.value if isinstance(failed, Failed) else failed
         analyser.fail(
             "macro-failed",
-            f"expanding `{prin1(form.car).lower()}` failed: {failure_text(failure)}",
+            f"expanding `{shown(form.car)}` failed: {failure_text(failure)}",
         )
     except RecursionError:
-        analyser.fail("nested-too-deep", f"expanding `{prin1(form.car).lower()}` does not come to an end")
+        analyser.fail("nested-too-deep", f"expanding `{shown(form.car)}` does not come to an end")
 
 
 def failure_text(failure: Failure) -> str:

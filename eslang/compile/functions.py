@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from eslang.base.lists import Cons, items, lisp_list
 from eslang.base.printer import prin1
+from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.analyser import LAMBDA, Analyser
 from eslang.compile.bindings import is_special, sequential
@@ -32,8 +33,8 @@ def checked_lambda_list(analyser: Analyser, lst: Value, *, destructuring: bool =
     try:
         return parse_lambda_list(lst, destructuring=destructuring)
     except BadLambdaList as mistake:
-        shown = f": `{prin1(mistake.element).lower()}`" if mistake.element is not None else ""
-        analyser.fail("malformed-lambda-list", mistake.message + shown, analyser.spans.of(lst))
+        named = f": `{shown(mistake.element)}`" if mistake.element is not None else ""
+        analyser.fail("malformed-lambda-list", mistake.message + named, analyser.spans.of(lst))
 
 
 class _Parameters:
@@ -59,9 +60,7 @@ def _check_names(analyser: Analyser, names: list[Symbol]) -> None:
     """Fail if two parameters have the same name."""
     for index, symbol in enumerate(names):
         if symbol in names[:index]:
-            analyser.fail(
-                "malformed-lambda-list", f"the parameter `{prin1(symbol).lower()}` stands here twice"
-            )
+            analyser.fail("malformed-lambda-list", f"the parameter `{shown(symbol)}` stands here twice")
 
 
 def _rebound(parts: LambdaList) -> LambdaList:
@@ -165,7 +164,7 @@ def function(analyser: Analyser, form: Cons, scope: Scope) -> Node:
         )
     setf = setf_name(name)
     if not isinstance(name, Symbol) and setf is None:
-        analyser.fail("bad-operator", f"`{prin1(name).lower()}` cannot name a function")
+        analyser.fail("bad-operator", f"`{shown(name)}` cannot name a function")
     found = scope.find_function((SETF, setf) if setf is not None else name)
     if isinstance(found, Variable):
         return Local(analyser.span, found)
@@ -175,9 +174,7 @@ def function(analyser: Analyser, form: Cons, scope: Scope) -> Node:
         and not hasattr(analyser.image.cell(symbol), "function")
         and _is_operator(analyser, symbol)
     ):
-        analyser.fail(
-            "bad-operator", f"`{prin1(symbol).lower()}` is no function, but a macro or special form"
-        )
+        analyser.fail("bad-operator", f"`{shown(symbol)}` is no function, but a macro or special form")
     if setf is None:
         analyser.use("function", symbol, None, form, scope)
     return FunctionOf(analyser.span, symbol, setf=setf is not None)
@@ -219,7 +216,7 @@ def _local_definitions(analyser: Analyser, form: Cons) -> list[tuple[Value, Valu
         ):
             analyser.fail(
                 "malformed-binding",
-                f"`{prin1(definition)}` defines no function",
+                f"`{shown(definition)}` defines no function",
                 analyser.spans.of(definition) or analyser.spans.element(rest),
                 hint="write `(name (parameter...) form...)`",
             )
@@ -290,9 +287,9 @@ def macrolet_scope(analyser: Analyser, form: Cons, scope: Scope) -> tuple[Value,
 
 def parameter_names(lst: Value) -> str:
     """A lambda list as it is shown in a signature, without defaults."""
-    shown = []
+    words = []
     for element in items(lst) if lst.__class__ is Cons else []:
         while element.__class__ is Cons and not isinstance(element.car, Symbol):
             element = element.car
-        shown.append(prin1(element.car if element.__class__ is Cons else element).lower())
-    return " ".join(shown)
+        words.append(prin1(element.car if element.__class__ is Cons else element).lower())
+    return " ".join(words)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from eslang.base.failure import GENERAL_FAILURE, control_error
 from eslang.base.lists import Cons, from_items, lisp_list
-from eslang.base.printer import prin1
+from eslang.base.shown import shown
 from eslang.base.suggest import nearest
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.text import String
@@ -42,7 +42,7 @@ class RecoveryClause:
             refuse(
                 environment,
                 "malformed-clause",
-                f"`{prin1(clause).lower()}` is no recovery clause",
+                f"`{shown(clause)}` is no recovery clause",
                 holder,
                 hint="write `(cause form...)`",
             )
@@ -55,7 +55,7 @@ class RecoveryClause:
             refuse(
                 environment,
                 "malformed-clause",
-                f"`{prin1(head).lower()}` cannot be the cause of a failure",
+                f"`{shown(head)}` cannot be the cause of a failure",
                 clause,
                 hint="write a keyword, such as `:widget-broken`",
             )
@@ -76,10 +76,10 @@ class RecoveryClause:
             refuse(
                 self.environment,
                 "unknown-clause-option",
-                f"a recovery clause has no option `{prin1(body.car).lower()}`",
+                f"a recovery clause has no option `{shown(body.car)}`",
                 body,
                 label="expected `:retries`",
-                hint=f"write `:retries {prin1(body.cdr.car).lower()}`",
+                hint=f"write `:retries {shown(body.cdr.car)}`",
             )
         self.limit = body.cdr.car
         self.body = body.cdr.cdr
@@ -90,7 +90,7 @@ class RecoveryClause:
             refuse(
                 self.environment,
                 "malformed-clause",
-                f"`{prin1(self.limit).lower()}` is no number of retries",
+                f"`{shown(self.limit)}` is no number of retries",
                 body.cdr,
                 hint="write a whole number, or `:infinite`",
             )
@@ -108,21 +108,18 @@ class RecoveryClause:
         while rest.__class__ is Cons:
             forms.append(rest.car)
             rest = rest.cdr
-        if rest is not None or not forms:
+        last = forms.pop() if forms else None
+        if rest is not None or last.__class__ is not Cons or self.environment is None:
             return self.body
-        last = forms.pop()
-        operator = last.car if last.__class__ is Cons else None
-        own = (
-            operator in JUMPS
-            and self.environment is not None
-            and self.environment.find_function(operator) is None
-        )
-        if own and (last.cdr is None or (operator is ABORT and last.cdr.cdr is None)):
-            result = None if operator is RETRY else last.cdr or Cons(None, None)
-            jump = Cons(JUMPS[operator], Cons(this, result))
-            self.environment.analyser.spans.copy_from(jump, last)
-            last = jump
-        return from_items([*forms, last])
+        operator = last.car
+        if operator not in JUMPS or self.environment.find_function(operator) is not None:
+            return self.body
+        if last.cdr is not None and (operator is RETRY or last.cdr.cdr is not None):
+            return self.body
+        result = last.cdr if operator is RETRY else last.cdr or Cons(None, None)
+        jump = Cons(JUMPS[operator], Cons(this, result))
+        self.environment.analyser.spans.copy_from(jump, last)
+        return from_items([*forms, jump])
 
     def lambda_list(self) -> Value:
         """Arguments in excess are discarded, missing ones are NIL (ESL §2.1)."""
@@ -133,7 +130,7 @@ class RecoveryClause:
                 refuse(
                     self.environment,
                     "malformed-clause",
-                    f"`{prin1(rest.car).lower()}` cannot name an argument of a failure",
+                    f"`{shown(rest.car)}` cannot name an argument of a failure",
                     rest,
                 )
             names.append(rest.car)
