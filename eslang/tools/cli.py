@@ -15,21 +15,37 @@ FAILED, USAGE, BUG, INTERRUPTED = 1, 2, 70, 130
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command line ARGUMENTS (those of the process unless given); the exit code."""
+    """Run the command line ARGUMENTS; the exit code. Without them, run that of the process, and end it."""
     prepare_streams()
+    code = guarded(sys.argv[1:] if arguments is None else arguments)
     try:
-        code = dispatch(sys.argv[1:] if arguments is None else arguments)
         sys.stdout.flush()
-        return code
+    except OSError as trouble:
+        code = output_refused(trouble)
+    if arguments is None and sys.gettrace() is None:
+        end(code)
+    return code
+
+
+def guarded(arguments: list[str]) -> int:
+    """Run the command line ARGUMENTS; whatever happens, the exit code."""
+    try:
+        return dispatch(arguments)
     except Usage as mistake:
         sys.stderr.write(f"esl: {mistake}\nTry `esl --help`.\n")
         return USAGE
-    except OSError as trouble:
+    except BrokenPipeError as trouble:
         return output_refused(trouble)
     except KeyboardInterrupt:
         return INTERRUPTED
     except Exception as bug:
         return bug_found(bug)
+
+
+def end(code: int) -> None:
+    """End the process: all is closed, and Python's own way of tidying up takes as long as its start."""
+    sys.stderr.flush()
+    os._exit(code)
 
 
 def dispatch(arguments: list[str]) -> int:
