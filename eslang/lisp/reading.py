@@ -13,12 +13,18 @@ from eslang.base.diagnostics import EslError, IncompleteInput
 from eslang.base.failure import Failure, simple_error
 from eslang.base.many import Values
 from eslang.base.running import running
-from eslang.base.symbols import T, Value
-from eslang.compile.registry import function
+from eslang.base.symbols import Symbol, T, Value
+from eslang.compile.registry import function, variable
 from eslang.lisp.arguments import take_keys
 from eslang.lisp.stream_input import at_end
 from eslang.lisp.streams import InputStream, input_stream
 from eslang.lisp.strings import bounds, check_string
+
+variable(
+    "*read-default-float-format*",
+    Symbol.intern("DOUBLE-FLOAT", "COMMON-LISP"),
+    "The type that floats are read as; all floats are doubles.",
+)
 
 
 class _Found(NamedTuple):

@@ -21,6 +21,9 @@ from eslang.lisp.characters import check_character, check_radix, digit_weight, f
 from eslang.lisp.numbers import check_integer
 
 
+_LONGEST = 1 << 31  # a string beyond this asks for more memory than there is
+
+
 def text_of(designator: Value, name: str) -> str:
     """The text that DESIGNATOR, a string, symbol or character, stands for."""
     text: str
@@ -71,8 +74,8 @@ def string(designator: Value) -> Value:
 def make_string(size: Value, *options: Value) -> Value:
     """Return a new string of SIZE characters, spaces unless told otherwise."""
     element, _ = take_keys(options, ("INITIAL-ELEMENT", "ELEMENT-TYPE"))
-    if check_integer(size, "make-string") < 0:
-        raise type_error(size, "UNSIGNED-BYTE", "make-string")
+    if not 0 <= check_integer(size, "make-string") <= _LONGEST:
+        raise type_error(size, "ARRAY-INDEX", "make-string")
     return String((" " if element is None else check_character(element, "make-string")) * size)
 
 

@@ -236,9 +236,9 @@ def get(symbol: Value, indicator: Value, default: Value = None) -> Value:
 
 
 @function("(%set-get symbol indicator value-or-default &optional value)")
-def set_get(symbol: Value, indicator: Value, *values: Value) -> Value:
+def set_get(symbol: Value, indicator: Value, first: Value, *second: Value) -> Value:
     """Set the property INDICATOR of SYMBOL, for (setf get); value last."""
-    cell, value = cell_of(symbol, "get"), values[-1]
+    cell, value = cell_of(symbol, "get"), second[0] if second else first
     found = _find_property(cell, indicator)
     if found is None:
         cell.plist = Cons(indicator, Cons(value, cell.plist))
