@@ -181,7 +181,7 @@ class History:
 
 def source_of(text: str, name: str) -> Source:
     """TEXT as a source; an error if some of the bytes that it came from were no UTF-8."""
-    from eslang.reader.reader import decode
+    from eslang.base.decoding import decode
 
     return decode(text.encode("utf-8", "surrogateescape"), name)
 
