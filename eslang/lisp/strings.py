@@ -20,7 +20,6 @@ from eslang.lisp.arguments import take_keys
 from eslang.lisp.characters import check_character, check_radix, digit_weight, folded, has_case
 from eslang.lisp.numbers import check_integer
 
-
 _LONGEST = 1 << 31  # a string beyond this asks for more memory than there is
 
 
