@@ -252,9 +252,16 @@ class Analyser:
             )
 
     def fail(
-        self, name: str, message: str, span: Span | None = None, label: str = "", hint: str | None = None
+        self,
+        name: str,
+        message: str,
+        span: Span | None = None,
+        label: str = "",
+        hint: str | None = None,
+        construct: str | None = None,
     ) -> NoReturn:
-        """Raise the diagnostic of a mistake at SPAN, or at the form at hand."""
+        """Raise the diagnostic of a mistake at SPAN, or at the form at hand; CONSTRUCT is around it."""
         place = span or self.span
         labels = (Label(place, label),) if place is not None else ()
-        raise EslError(Diagnostic(name, message, labels, within=self.definition, hint=hint))
+        within = " of ".join([part for part in (construct, self.definition) if part]) or None
+        raise EslError(Diagnostic(name, message, labels, within=within, hint=hint))

@@ -157,7 +157,7 @@ def refuse(
         raise control_error(message)
     spans = environment.analyser.spans
     span = spans.element(holder) or spans.of(holder.car) or spans.of(holder)
-    environment.analyser.fail(name, message, span, label, hint)
+    environment.analyser.fail(name, message, span, label, hint, "(with-recovery-procedures …)")
 
 
 def warn_of_unreachable(clauses: list[RecoveryClause], environment: Scope | None) -> None:
