@@ -34,7 +34,18 @@ class Throw(Unwind):
 
 
 class Retry(Unwind):
-    """Back to the start of the body that the recovery procedure belongs to."""
+    """Back to the start of the body that the recovery procedure belongs to.
+
+    It is made often, so its target is what Python's own exceptions hold.
+    """
+
+    __init__ = BaseException.__init__
+    value = None
+
+    @property
+    def target(self) -> object:  # type: ignore[override]
+        """The form."""
+        return self.args[0]
 
 
 class Abort(Unwind):

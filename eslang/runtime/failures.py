@@ -60,7 +60,7 @@ class Clause(NamedTuple):
 
 
 class Form:
-    """One entrance of a form that answers failures: its clauses, their procedures, and how often each was used."""
+    """One entrance of a form that answers failures: its clauses, procedures, and how often each was used."""
 
     __slots__ = ("clauses", "live", "outer", "procedures", "used")
     outer: Form | None
@@ -122,13 +122,13 @@ def fail(cause: Value, *arguments: Value) -> Value:
 
 def signal(failure: Failure, *, continuable: bool) -> Value:
     """Call the active recovery procedures for FAILURE; jump if one of them asks for it."""
-    value = answer(failure, continuable=continuable)
+    value = answer(failure, continuable)
     if value is JUMP:
         raise running.session.dynamic.jumps.pop()
     return value
 
 
-def answer(failure: Failure, *, continuable: bool) -> Value:
+def answer(failure: Failure, continuable: bool) -> Value:
     """Call the active recovery procedures for FAILURE, from the innermost form outward.
 
     A procedure that ends with a jump may return it, a Retry or an Abort. It is
@@ -139,48 +139,34 @@ def answer(failure: Failure, *, continuable: bool) -> Value:
     session = running.session
     dynamic: Dynamic = session.dynamic
     innermost = form = dynamic.forms
-    start = 0
     while form is not None:
-        index = _clause_for(form, failure, session.causes, start)
-        if index is None:
-            form, start = form.outer, 0
-            continue
-        clause = form.clauses[index]
-        if clause.takes is not None:
-            _call(dynamic, form.outer, form.procedures[index], failure, (failure,))
-            start = index + 1
-            continue
-        form.used[index] += 1
-        if session.hooks.listeners:
-            left = None if clause.limit is None else clause.limit - form.used[index]
-            session.hooks.tell("recovery", as_place(clause.place), failure=failure, left=left)
-        value = _call(dynamic, form, form.procedures[index], failure, failure.arguments)
-        if value.__class__ is Retry or value.__class__ is Abort:
-            value.failed = True
-            dynamic.jumps.append(value)
-            return JUMP
-        if continuable:
-            return value
-        form, start = form.outer, 0
+        for index, (cause, limit, place, takes) in enumerate(form.clauses):
+            if takes is not None:
+                if takes(failure):
+                    _call(dynamic, form.outer, form.procedures[index], failure, (failure,))
+                continue
+            used = form.used[index]
+            if used == limit or (
+                cause is not failure.cause and not session.causes.answers(cause, failure.cause)
+            ):
+                continue
+            form.used[index] = used + 1
+            if session.hooks.listeners:
+                left = None if limit is None else limit - used - 1
+                session.hooks.tell("recovery", as_place(place), failure=failure, left=left)
+            value = _call(dynamic, form, form.procedures[index], failure, failure.arguments)
+            if value.__class__ is Retry or value.__class__ is Abort:
+                value.failed = True
+                dynamic.jumps.append(value)
+                return JUMP
+            if continuable:
+                return value
+            break
+        form = form.outer
     failure.story = tell_story(failure, innermost, session.causes)
     if session.hooks.listeners:
         session.hooks.tell("failure", failure.story.place, failure=failure)
     raise Failed(failure)
-
-
-def _clause_for(form: Form, failure: Failure, causes: Causes, start: int) -> int | None:
-    """The number of the first clause of FORM, from START on, for FAILURE that may still be invoked."""
-    clauses, used = form.clauses, form.used
-    for index in range(start, len(clauses)):
-        cause, limit, _, takes = clauses[index]
-        if takes is not None:
-            if takes(failure):
-                return index
-        elif (limit is None or used[index] < limit) and (
-            cause is failure.cause or causes.answers(cause, failure.cause)
-        ):
-            return index
-    return None
 
 
 def _call(

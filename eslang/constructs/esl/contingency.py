@@ -13,8 +13,8 @@ from eslang.base.control import Abort, Retry
 from eslang.base.failure import Failure, control_error, type_error
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.many import many_of
-from eslang.base.printer import prin1
 from eslang.base.running import running
+from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.registry import ESL, function, macro
 from eslang.constructs.esl.clauses import (
@@ -63,7 +63,7 @@ def fail(cause: Value, *arguments: Value) -> Value:
     """
     if not isinstance(cause, Symbol):
         raise type_error(cause, "SYMBOL", "fail")
-    value = failures.answer(Failure(cause, *arguments), continuable=True)
+    value = failures.answer(Failure(cause, *arguments), True)
     if value is failures.JUMP:
         raise running.session.dynamic.jumps.pop()
     return value
@@ -104,7 +104,7 @@ def with_recovery_procedures(form: Cons, environment: Any) -> Value:
             parts.append(RecoveryClause(rest.car, rest, environment))
             rest = rest.cdr
     else:
-        refuse(environment, "malformed-clause", f"`{prin1(clauses)}` is no list of recovery clauses", holder)
+        refuse(environment, "malformed-clause", f"`{shown(clauses)}` is no list of recovery clauses", holder)
     warn_of_unreachable(parts, environment)
     this = Symbol.uninterned("FORM")
     procedures = [part.procedure(this) for part in parts]
@@ -114,7 +114,7 @@ def with_recovery_procedures(form: Cons, environment: Any) -> Value:
 
 
 def _specifications(parts: list[RecoveryClause]) -> Value:
-    """The form that gives what is known of the clauses: a constant, unless a number of retries is computed."""
+    """The form that gives what is known of the clauses: a constant, unless some retries are computed."""
     if all(part.limit is INFINITE or part.limit.__class__ is int for part in parts):
         return lisp_list(
             QUOTE, from_items([lisp_list(part.cause, part.limit, part.place()) for part in parts])
@@ -205,7 +205,7 @@ KNOWN = Known()
 def _clause(cause: Value, limit: Value, place: Value) -> Clause:
     if limit is not INFINITE and (limit.__class__ is not int or limit < 0):
         raise type_error(limit, "UNSIGNED-BYTE", "with-recovery-procedures")
-    return Clause(cause, None if limit is INFINITE else limit, place)
+    return Clause(cause, limit if limit.__class__ is int else None, place)
 
 
 def _recover_many(form: Form, body: Value, specifications: Value, *procedures: Value) -> Value:
