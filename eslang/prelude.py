@@ -12,6 +12,7 @@ from pathlib import Path
 LISP = [
     "predicates",
     "types",
+    "subtypes",
     "coercions",
     "conses",
     "alists",
@@ -44,6 +45,7 @@ LISP = [
     "conditions",
     "defining",
     "control",
+    "standard_macros",
     "loading",
 ]
 ROOMS = [

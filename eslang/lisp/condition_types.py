@@ -17,7 +17,7 @@ from eslang.base.running import running
 from eslang.base.symbols import Datum, Keyword, Symbol, Value
 from eslang.base.text import String
 from eslang.lisp.streams import StringOutputStream
-from eslang.lisp.types import NAME_OF, define_simple_type, find_type, is_of_type
+from eslang.lisp.types import LINE_OF, NAME_OF, define_simple_type, find_type, is_of_type
 
 
 class Slot:
@@ -175,6 +175,7 @@ def type_of_condition(failure: Failure) -> ConditionType:
     return STANDARD.get(_TYPE_NAMES.get(name, name), STANDARD["ERROR"])
 
 
+LINE_OF[ConditionType] = lambda kind: kind.line
 NAME_OF[Failure] = NAME_OF[Condition] = lambda value: type_of_condition(value).name
 
 

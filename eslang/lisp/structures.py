@@ -18,7 +18,7 @@ from eslang.compile.registry import function
 from eslang.lisp.arguments import UNSUPPLIED, take_keys
 from eslang.lisp.hashing import STRUCTURED
 from eslang.lisp.streams import StringOutputStream
-from eslang.lisp.types import NAME_OF, Type, define_simple_type, define_type, find_type
+from eslang.lisp.types import LINE_OF, NAME_OF, Type, define_simple_type, define_type, find_type
 
 
 class StructureType(Datum):
@@ -73,6 +73,7 @@ class Structure(Datum):
 
 
 STRUCTURED[Structure] = lambda structure: [structure.type, *structure.items]
+LINE_OF[StructureType] = lambda kind: [kind, *kind.ancestors]
 NAME_OF[Structure] = lambda structure: structure.type.name
 define_simple_type("STRUCTURE-OBJECT", lambda value: value.__class__ is Structure)
 

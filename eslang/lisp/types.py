@@ -7,7 +7,7 @@ here; those that a program defines hang from the cell of their name, as a Type.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from eslang.base.failure import simple_error
 from eslang.base.lists import Cons, from_items, items
@@ -42,6 +42,9 @@ class Type(NamedTuple):
 
 
 NAME_OF: dict[type, Callable[[Value], Value]] = {}  # class -> what TYPE-OF says of its instances
+LINE_OF: dict[
+    type, Callable[[Any], list[Any]]
+] = {}  # class of a claim -> the claims it goes with, itself first
 
 
 def define_type(name: Symbol, kind: Type) -> None:
@@ -75,13 +78,13 @@ def _parted(specifier: Value) -> tuple[Value, list[Value]]:
 
 def is_of_type(value: Value, specifier: Value) -> bool:
     """Whether VALUE is of the type SPECIFIER."""
-    claim = _named(specifier) if specifier.__class__ is not Cons else None
+    claim = named_type(specifier)
     if claim is not None:
         return claim(value)
     specifier = expand_type(specifier)
     head, arguments = _parted(specifier)
     if not arguments:
-        claim = _named(head)
+        claim = named_type(head)
         if claim is not None:
             return claim(value)
     if head in _COMPOUND:
@@ -89,7 +92,10 @@ def is_of_type(value: Value, specifier: Value) -> bool:
     raise simple_error("unknown type specifier", specifier)
 
 
-def _named(name: Value) -> Claim | None:
+def named_type(name: Value) -> Claim | None:
+    """What says whether a value is of the type NAME; None if it is no name of one."""
+    if name.__class__ is Cons:
+        return None
     claim = _SIMPLE.get(name)
     if claim is None:
         kind = find_type(name)
