@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from weakref import WeakKeyDictionary
 
-from eslang.base.failure import type_error
+from eslang.base.failure import Failure, type_error
 from eslang.base.image import PACKAGE, Image
 from eslang.base.many import Values
-from eslang.base.printer import WriteSettings, write_text
+from eslang.base.printer import READABLE, WriteSettings, write_text
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, T, Value, truth
 from eslang.base.text import String
@@ -103,6 +103,14 @@ def princ_text(value: Value) -> str:
         text: str = value.text
         return text
     return write_text(value, current_settings(False))
+
+
+def shown(value: Value) -> str:
+    """VALUE as the prompt shows it: as PRIN1 writes it now, or plainly where the variables forbid."""
+    try:
+        return prin1_text(value)
+    except Failure:
+        return write_text(value, READABLE)
 
 
 @function("(prin1 object &optional stream)")

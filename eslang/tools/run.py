@@ -61,13 +61,14 @@ def load(interp: Any, path: str) -> None:
 
 def evaluate_text(interp: Any, text: str) -> None:
     """Evaluate the forms of TEXT and print their values, one a line."""
-    from eslang.base.printer import prin1
+    from eslang.lisp.output import shown
     from eslang.tools.conversation import source_of
 
     for reading in interp.readings(source_of(text, "-e")):
         for value in interp.evaluate(reading):
             interp.output.fresh_line()
-            interp.output.write(prin1(value) + "\n")
+            with interp.at_work():
+                interp.output.write(shown(value) + "\n")
 
 
 def main_function(interp: Any) -> Any:
