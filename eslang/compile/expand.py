@@ -53,7 +53,7 @@ def macroexpand_1(form: Value, image: Image, scope: Scope | None = None) -> tupl
         return found.expander(form, scope), True
     if found is None:
         expander = image.cell(form.car).macro
-        if expander is not None and form.car not in image.special_forms:
+        if expander is not None:
             return expander(form, scope), True
     return form, False
 

@@ -9,11 +9,12 @@ from typing import Any
 
 from eslang.base.failure import simple_error
 from eslang.base.image import Cell
-from eslang.base.lists import items
+from eslang.base.lists import items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.compile.registry import Definition, function
 
+SETF = Symbol.intern("SETF", "COMMON-LISP")
 CONSTANT, VAR = Keyword("CONSTANT"), Keyword("VAR")
 
 
@@ -45,7 +46,7 @@ def define_function(name: Symbol, made: Value, signature: Value, doc: Value, whe
 def define_setf_function(name: Symbol, made: Value, signature: Value, doc: Value, where: Value) -> Value:
     """Make MADE the function that sets the place NAME."""
     running.session.image.cell(name).setf_function = made
-    return name
+    return lisp_list(SETF, name)
 
 
 @function("(%define-macro name expander signature documentation where)")
