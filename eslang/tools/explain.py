@@ -9,11 +9,13 @@ from __future__ import annotations
 import re
 import sys
 from pathlib import Path
+from textwrap import wrap
 
 from eslang.base.suggest import nearest
 from eslang.tools.options import Chosen, Usage
 
 NOT_FOUND = 1
+WIDTH = 78
 _PACKAGE = Path(__file__).resolve().parents[1]
 _PAGES = (_PACKAGE / "errors.md", _PACKAGE.parent / "docs" / "reference" / "errors.md")
 
@@ -39,13 +41,19 @@ def explanation(name: str) -> str | None:
     if section is None:
         return None
     lines = [name, ""]
+    prose: list[str] = []
     fenced = False
-    for line in section.strip().split("\n"):
+    for line in [*section.strip().split("\n"), ""]:
+        if line and not fenced and not line.startswith("```"):
+            prose.append(line)
+            continue
+        lines += wrap(" ".join(prose), WIDTH)
+        prose = []
         if line.startswith("```"):
             fenced = not fenced
         elif not line.startswith("; expect"):
             lines.append(f"    {line}".rstrip() if fenced else line)
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines).rstrip() + "\n"
 
 
 def sections() -> dict[str, str]:
