@@ -52,6 +52,12 @@ class Ticks:
         self._source = self._make()
         sys.setprofile(self._at_call)
 
+    def forget(self) -> None:
+        """Forget a stop that nothing has obeyed: what was to be stopped has ended."""
+        if self.pending is not None:
+            self.pending = None
+            sys.setprofile(None)
+
     def _at_call(self, frame: FrameType, event: str, argument: Any) -> None:
         if event == "call" and "%many" in frame.f_globals:
             self.safepoint()

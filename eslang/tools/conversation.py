@@ -15,10 +15,10 @@ from eslang.base.control import Stop
 from eslang.base.diagnostics import EslError, IncompleteInput
 from eslang.base.failure import Failure
 from eslang.base.lists import from_items
-from eslang.base.printer import prin1
 from eslang.base.render import render
 from eslang.base.spans import Source, Span
 from eslang.base.symbols import Keyword, Symbol, Value
+from eslang.lisp.output import shown
 from eslang.tools.report import bug_report
 
 PROMPT = "? "
@@ -88,7 +88,8 @@ class Conversation:
             start, done = extent(text, reading.span)
             if self.echo:
                 self.show(text[start:done])
-            self.answer(reading)
+            if not self.answer(reading):
+                return ""
 
     def refuse(self, text: str, error: EslError) -> None:
         """Say that TEXT cannot be read."""
@@ -102,12 +103,12 @@ class Conversation:
         self.output.write(form + "\n")
         self.prompted = False
 
-    def answer(self, reading: Any) -> None:
-        """Evaluate one form and print what comes of it."""
+    def answer(self, reading: Any) -> bool:
+        """Evaluate one form and print what comes of it; false if it was interrupted."""
         form = reading.form
         if isinstance(form, Keyword) and form in self.said:
             self.said[form](self)
-            return
+            return True
         self.history.begin(form)
         try:
             values = self.interp.evaluate(reading)
@@ -117,6 +118,7 @@ class Conversation:
             self.complain(error)
         except Stop as stop:
             self.stopped(stop)
+            return False
         except Exception as bug:
             self.write_error(bug_report(bug))
         else:
@@ -124,11 +126,13 @@ class Conversation:
             for value in values:
                 self.print_value(value)
         self.output.fresh_line()
+        return True
 
     def print_value(self, value: Value) -> None:
         """Print VALUE on a line of its own."""
         self.output.fresh_line()
-        self.output.write(prin1(value) + "\n")
+        with self.interp.at_work():
+            self.output.write(shown(value) + "\n")
 
     def stopped(self, stop: Stop) -> None:
         """The evaluation was ended from outside, or by (quit)."""
