@@ -106,11 +106,15 @@ def princ_text(value: Value) -> str:
 
 
 def shown(value: Value) -> str:
-    """VALUE as the prompt shows it: as PRIN1 writes it now, or plainly where the variables forbid."""
+    """VALUE as the prompt shows it: as PRIN1 writes it now, or plainly where that fails."""
     try:
         return prin1_text(value)
     except Failure:
+        pass
+    try:
         return write_text(value, READABLE)
+    except Failure:
+        return "#<a value that cannot be printed>"
 
 
 @function("(prin1 object &optional stream)")
