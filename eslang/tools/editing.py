@@ -71,17 +71,18 @@ class Editor:
 
     def toolbar(self) -> str | None:
         """The signature of the operator whose arguments are being typed."""
-        before = self.session.default_buffer.document.text_before_cursor
-        for start in reversed(open_lists(before)):
-            operator = (
-                incomplete_word(before[start + 1 :].lstrip().split(None, 1)[0])
-                if before[start + 1 :].strip()
-                else ""
-            )
-            signature = signature_of(self.interp, operator) if operator else None
-            if signature is not None:
-                return signature
-        return None
+        return signature_at(self.interp, self.session.default_buffer.document.text_before_cursor)
+
+
+def signature_at(interp: Any, before: str) -> str | None:
+    """The signature of the innermost operator known whose list is open at the end of the text BEFORE."""
+    for start in reversed(open_lists(before)):
+        words = before[start + 1 :].split(None, 1)
+        operator = incomplete_word(words[0]) if words else ""
+        signature = signature_of(interp, operator) if operator else None
+        if signature is not None:
+            return signature
+    return None
 
 
 def is_complete(interp: Any, text: str) -> bool:
