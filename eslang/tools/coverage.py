@@ -91,12 +91,18 @@ class FileCoverage:
         self.ran = ran
         self.clauses: list[Clause] = []
         self.idle_clauses: list[Clause] = []
+        self.idle_functions: list[Node] = []
         self.idle_forms: list[Node] = []
         self.forms = 0
         self.forms_run = 0
+        self.unlisted = 0  # clauses inside of what did not run
         for node in outline(text):
             self._count(node)
-            self._look_at(node)
+            if self._is_idle_function(node):
+                self.idle_functions.append(node)
+                self._count_clauses(node)
+            else:
+                self._look_at(node)
 
     def _count(self, top: Node) -> None:
         for node in top.all():
@@ -104,10 +110,23 @@ class FileCoverage:
                 self.forms += 1
                 self.forms_run += node.place in self.ran
 
+    def _is_idle_function(self, node: Node) -> bool:
+        """True if NODE defines a function of which no form ran."""
+        inside = [part for part in node.all() if part is not node and part.place in self.known]
+        return (
+            node.operator == "defun" and bool(inside) and not any(part.place in self.ran for part in inside)
+        )
+
+    def _count_clauses(self, idle: Node) -> None:
+        found = [clause for node in idle.all() for clause in clauses_of(node)]
+        self.clauses += found
+        self.unlisted += len(found)
+
     def _look_at(self, node: Node) -> None:
         """Note what of NODE did not run; of a form that did not, only the form itself."""
         if node.place in self.known and node.place not in self.ran and not self._ran_inside(node):
             self.idle_forms.append(node)
+            self._count_clauses(node)
             return
         skipped: list[Node] = []
         for clause in clauses_of(node):
@@ -135,9 +154,11 @@ class FileCoverage:
         share = 100 * self.forms_run // self.forms if self.forms else 100
         text = f"{self.name}: {self.forms_run} of {self.forms} forms ran ({share} %)"
         if self.clauses:
-            invoked = len(self.clauses) - len(self.idle_clauses)
+            invoked = len(self.clauses) - len(self.idle_clauses) - self.unlisted
             text += f", {invoked} of {len(self.clauses)} recovery clauses were invoked"
         lines = [text]
+        for node in self.idle_functions:
+            lines.append(f"  {self.place(node)}: `{node.parts[1]}` was never called")
         for clause in self.idle_clauses:
             lines.append(f"  {self.place(clause.node)}: the clause for `{clause.cause}` was never invoked")
         for node in self.idle_forms:
