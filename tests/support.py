@@ -194,3 +194,10 @@ class Collector:
         if file_path.suffix == ".md" and (where.startswith(("docs/", "plans/")) or where == "README.md"):
             return Page.from_parent(parent, path=file_path)
         return None
+
+
+def run_python(code: str) -> str:
+    """What a fresh Python prints for CODE."""
+    return subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout.strip()

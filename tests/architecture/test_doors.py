@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import ast
-import subprocess
-import sys
 
-from architecture.sources import MODULES, ROOT, Module, imports_of
+from architecture.sources import MODULES, Module, imports_of
+from support import run_python
 
 # What only the named places may touch; the tools are where people and machine meet.
 DOORS = {
@@ -32,13 +31,6 @@ def touched(module: Module) -> list[tuple[str, int]]:
         elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "sys":
             found.append((f"sys.{node.attr}", node.lineno))
     return found
-
-
-def run_python(code: str) -> str:
-    """What a fresh Python prints for CODE."""
-    return subprocess.run(
-        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
-    ).stdout.strip()
 
 
 def test_nothing_prints_reads_the_clock_or_draws_a_number_outside_its_room() -> None:
