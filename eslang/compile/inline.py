@@ -40,9 +40,11 @@ class InlineFunction(NamedTuple):
 INLINE: dict[str, InlineFunction] = {}
 
 
-def _inline(
+def inline(
     name: str, least: int, most: int | None, kind: str, *, simple: bool = False
 ) -> Callable[[Emit], Emit]:
+    """Register the emitter of the standard function NAME."""
+
     def register(emit: Emit) -> Emit:
         INLINE[name] = InlineFunction(least, most, kind, emit, simple)
         return emit
@@ -57,11 +59,16 @@ def is_number(node: Node) -> bool:
     return isinstance(node, Inline) and INLINE[node.operator].kind == NUMBER
 
 
+def is_integer(expression: ast.expr) -> bool:
+    """True if EXPRESSION is an integer as it stands."""
+    return isinstance(expression, ast.Constant) and expression.value.__class__ is int
+
+
 # --- arithmetic --------------------------------------------------------------------
 
 
 def _fold(name: str, operator: type[ast.operator]) -> None:
-    @_inline(name, 2, None, NUMBER)
+    @inline(name, 2, None, NUMBER)
     def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
         result = arguments[0]
         for argument in arguments[1:]:
@@ -74,23 +81,51 @@ _fold("-", ast.Sub)
 _fold("*", ast.Mult)
 
 
-@_inline("1+", 1, 1, NUMBER)
+@inline("1+", 1, 1, NUMBER)
 def _increment(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return e.operate(arguments[0], ast.Add(), e.constant(1))
 
 
-@_inline("1-", 1, 1, NUMBER)
+@inline("1-", 1, 1, NUMBER)
 def _decrement(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return e.operate(arguments[0], ast.Sub(), e.constant(1))
 
 
-@_inline("MOD", 2, 2, NUMBER)
+@inline("MOD", 2, 2, NUMBER)
 def _mod(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return e.operate(arguments[0], ast.Mod(), arguments[1])
 
 
+@inline("ABS", 1, 1, NUMBER)
+def _abs(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
+    return e.call_support("abs", *arguments)
+
+
+def _extreme(name: str, operator: type[ast.cmpop]) -> None:
+    @inline(name, 2, 2, NUMBER, simple=True)
+    def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
+        return e.choose(e.compare(arguments[0], operator(), arguments[1]), *arguments)
+
+
+_extreme("MAX", ast.GtE)
+_extreme("MIN", ast.LtE)
+
+
+def _parity(name: str, operator: type[ast.cmpop]) -> None:
+    @inline(name, 1, 1, TRUTH, simple=True)
+    def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
+        integer = e.is_(e.attribute(arguments[0], "__class__"), e.name("int"))
+        rest = e.operate(arguments[0], ast.Mod(), e.constant(2))
+        other = e.is_true(e.call_function(name, arguments))
+        return e.choose(integer, e.compare(rest, operator(), e.constant(0)), other)
+
+
+_parity("EVENP", ast.Eq)
+_parity("ODDP", ast.NotEq)
+
+
 def _order(name: str, operator: type[ast.cmpop]) -> None:
-    @_inline(name, 2, 2, TRUTH)
+    @inline(name, 2, 2, TRUTH)
     def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
         return e.compare(arguments[0], operator(), arguments[1])
 
@@ -105,27 +140,27 @@ def _equal_numbers(e: Emitter, left: ast.expr, right: ast.expr, nodes: list[Node
     return e.both(ast.And(), [e.compare(left, ast.LtE(), right), e.compare(left, ast.GtE(), right)])
 
 
-@_inline("=", 2, 2, TRUTH, simple=True)
+@inline("=", 2, 2, TRUTH, simple=True)
 def _number_equal(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return _equal_numbers(e, arguments[0], arguments[1], nodes)
 
 
-@_inline("/=", 2, 2, TRUTH, simple=True)
+@inline("/=", 2, 2, TRUTH, simple=True)
 def _number_unequal(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return e.unary(ast.Not(), _equal_numbers(e, arguments[0], arguments[1], nodes))
 
 
-@_inline("ZEROP", 1, 1, TRUTH, simple=True)
+@inline("ZEROP", 1, 1, TRUTH, simple=True)
 def _zerop(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return _equal_numbers(e, arguments[0], e.constant(0), nodes)
 
 
-@_inline("PLUSP", 1, 1, TRUTH)
+@inline("PLUSP", 1, 1, TRUTH)
 def _plusp(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return e.compare(arguments[0], ast.Gt(), e.constant(0))
 
 
-@_inline("MINUSP", 1, 1, TRUTH)
+@inline("MINUSP", 1, 1, TRUTH)
 def _minusp(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return e.compare(arguments[0], ast.Lt(), e.constant(0))
 
@@ -142,7 +177,7 @@ def _by_identity(nodes: list[Node]) -> bool:
 
 
 def _sameness(name: str, support: str) -> None:
-    @_inline(name, 2, 2, TRUTH)
+    @inline(name, 2, 2, TRUTH)
     def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
         literal = any(isinstance(a, ast.Constant) and a.value is not None for a in arguments)
         if _by_identity(nodes) and not literal:
@@ -154,14 +189,14 @@ _sameness("EQ", "%eq")
 _sameness("EQL", "%eql")
 
 
-@_inline("NULL", 1, 1, TRUTH)
-@_inline("NOT", 1, 1, TRUTH)
+@inline("NULL", 1, 1, TRUTH)
+@inline("NOT", 1, 1, TRUTH)
 def _null(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return e.is_nil(arguments[0])
 
 
 def _class_test(name: str, support: str, *, negated: bool = False) -> None:
-    @_inline(name, 1, 1, TRUTH)
+    @inline(name, 1, 1, TRUTH)
     def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
         operator = ast.IsNot() if negated else ast.Is()
         return e.compare(e.attribute(arguments[0], "__class__"), operator, e.name(support))
@@ -188,7 +223,7 @@ def _part(e: Emitter, owner: ast.expr, name: str) -> ast.expr:
 
 
 def _path(name: str, letters: str) -> None:
-    @_inline(name, 1, 1, VALUE)
+    @inline(name, 1, 1, VALUE)
     def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
         result = arguments[0]
         for letter in reversed(letters):
@@ -211,7 +246,7 @@ for _name, _letters in (
 def _sure_part(name: str, attribute: str) -> None:
     """The car or cdr of what DOLIST or LOOP knows is no NIL; what is no cons is a type error."""
 
-    @_inline(name, 1, 1, VALUE)
+    @inline(name, 1, 1, VALUE)
     def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
         return e.attribute(arguments[0], attribute)
 
@@ -220,12 +255,12 @@ _sure_part("%CAR", "car")
 _sure_part("%CDR", "cdr")
 
 
-@_inline("CONS", 2, 2, VALUE)
+@inline("CONS", 2, 2, VALUE)
 def _cons(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return e.call_support("Cons", *arguments)
 
 
-@_inline("LIST", 0, 8, VALUE)
+@inline("LIST", 0, 8, VALUE)
 def _list(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     result = e.constant(None)
     for argument in reversed(arguments):
@@ -234,13 +269,13 @@ def _list(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
 
 
 def _element(name: str) -> None:
-    @_inline(name, 2, 2, VALUE, simple=True)
+    @inline(name, 2, 2, VALUE, simple=True)
     def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
         vector, index = arguments
         items = e.attribute(vector, "items")
         below = e.compare(index, ast.Lt(), e.call_support("len", items))
         tests = [e.is_(e.attribute(vector, "__class__"), e.name("Vector"))]
-        if not isinstance(index, ast.Constant):
+        if not is_integer(index):
             tests.append(e.is_(e.attribute(index, "__class__"), e.name("int")))
         tests += [e.compare(e.constant(0), ast.LtE(), index), below]
         return e.choose(e.both(ast.And(), tests), e.subscript(items, index), e.call_function(name, arguments))
@@ -250,7 +285,65 @@ _element("AREF")
 _element("SVREF")
 
 
-@_inline("IDENTITY", 1, 1, VALUE)
+@inline("%COLLECT", 2, 2, VALUE)
+def _collect(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
+    cell = e.keep(e.call_support("Cons", arguments[1], e.constant(None)))
+    e.put(e.assign_attribute(arguments[0], "cdr", cell))
+    return cell
+
+
+# --- characters ----------------------------------------------------------------------
+
+
+def _character(e: Emitter, argument: ast.expr) -> ast.expr:
+    """The Python text of a character."""
+    return e.attribute(argument, "char")
+
+
+@inline("CHAR-CODE", 1, 1, VALUE)
+def _char_code(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
+    return e.call_support("ord", _character(e, arguments[0]))
+
+
+def _character_test(name: str, method: str) -> None:
+    @inline(name, 1, 1, TRUTH)
+    def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
+        return e.call(e.attribute(_character(e, arguments[0]), method), [])
+
+
+_character_test("ALPHA-CHAR-P", "isalpha")
+_character_test("ALPHANUMERICP", "isalnum")
+
+
+def _character_order(name: str, operator: type[ast.cmpop]) -> None:
+    @inline(name, 2, 2, TRUTH)
+    def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
+        return e.compare(_character(e, arguments[0]), operator(), _character(e, arguments[1]))
+
+
+for _name, _operator in (("CHAR=", ast.Eq), ("CHAR/=", ast.NotEq), ("CHAR<", ast.Lt), ("CHAR>", ast.Gt)):
+    _character_order(_name, _operator)
+
+
+def _character_at(name: str) -> None:
+    @inline(name, 2, 2, VALUE, simple=True)
+    def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
+        string, index = arguments
+        text = e.attribute(string, "text")
+        tests = [e.is_(e.attribute(string, "__class__"), e.name("String"))]
+        if not is_integer(index):
+            tests.append(e.is_(e.attribute(index, "__class__"), e.name("int")))
+        tests.append(e.compare(e.constant(0), ast.LtE(), index))
+        tests.append(e.compare(index, ast.Lt(), e.call_support("len", text)))
+        found = e.subscript(e.name("%Characters"), e.subscript(text, index))
+        return e.choose(e.both(ast.And(), tests), found, e.call_function(name, arguments))
+
+
+_character_at("CHAR")
+_character_at("SCHAR")
+
+
+@inline("IDENTITY", 1, 1, VALUE)
 def _identity(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return arguments[0]
 

@@ -19,7 +19,7 @@ from eslang.base.many import Values, many_of, primary, values_list
 from eslang.base.running import to_function
 from eslang.base.sameness import is_eq, is_eql
 from eslang.base.symbols import Keyword, Symbol, T, Value
-from eslang.base.text import Character, String, Vector
+from eslang.base.text import CHARACTERS, Character, String, Vector
 
 
 class Unsupplied:
@@ -189,7 +189,10 @@ SUPPORT: dict[str, Any] = {
     "Vector": Vector,
     "int": int,
     "float": float,
+    "abs": abs,
     "len": len,
+    "ord": ord,
+    "%Characters": CHARACTERS,
     "Exception": Exception,
     "%T": T,
     "%Box": Box,
