@@ -51,13 +51,14 @@ def items(lst: Value) -> list[Value]:
     result: list[Value] = []
     rest = lst
     while True:
-        for _ in repeat(None, SUSPICIOUS):
-            if rest.__class__ is not Cons:
+        try:
+            for _ in repeat(None, SUSPICIOUS):
                 if rest is None:
                     return result
-                raise type_error(lst, "LIST")
-            result.append(rest.car)
-            rest = rest.cdr
+                result.append(rest.car)
+                rest = rest.cdr
+        except AttributeError:  # only conses have these parts
+            raise type_error(lst, "LIST") from None
         check_end(lst)
 
 

@@ -305,6 +305,18 @@ def _char_code(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.
     return e.call_support("ord", _character(e, arguments[0]))
 
 
+@inline("CODE-CHAR", 1, 1, VALUE, simple=True)
+def _code_char(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
+    code = arguments[0]
+    tests = [
+        e.is_(e.attribute(code, "__class__"), e.name("int")),
+        e.compare(e.constant(0), ast.LtE(), code),
+        e.compare(code, ast.Lt(), e.constant(0x110000)),
+    ]
+    found = e.subscript(e.name("%Characters"), e.call_support("chr", code))
+    return e.choose(e.both(ast.And(), tests), found, e.call_function("CODE-CHAR", arguments))
+
+
 def _character_test(name: str, method: str) -> None:
     @inline(name, 1, 1, TRUTH)
     def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
@@ -321,8 +333,10 @@ def _character_order(name: str, operator: type[ast.cmpop]) -> None:
         return e.compare(_character(e, arguments[0]), operator(), _character(e, arguments[1]))
 
 
-for _name, _operator in (("CHAR=", ast.Eq), ("CHAR/=", ast.NotEq), ("CHAR<", ast.Lt), ("CHAR>", ast.Gt)):
-    _character_order(_name, _operator)
+_character_order("CHAR=", ast.Eq)
+_character_order("CHAR/=", ast.NotEq)
+_character_order("CHAR<", ast.Lt)
+_character_order("CHAR>", ast.Gt)
 
 
 def _character_at(name: str) -> None:

@@ -190,6 +190,7 @@ SUPPORT: dict[str, Any] = {
     "int": int,
     "float": float,
     "abs": abs,
+    "chr": chr,
     "len": len,
     "ord": ord,
     "%Characters": CHARACTERS,

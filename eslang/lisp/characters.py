@@ -33,6 +33,8 @@ def folded(char: str) -> str:
 
 def has_case(char: str) -> bool:
     """True if CHAR is one of a pair of letters that differ only in case."""
+    if char.isascii():
+        return char.isalpha()
     lower, upper = char.lower(), char.upper()
     return len(lower) == 1 and len(upper) == 1 and lower != upper and char in (lower, upper)
 

@@ -20,16 +20,22 @@ def _collect(f: Value, first: Value, more: tuple[Value, ...], by_element: bool) 
         return _collect_many(call, [first, *more], by_element)
     results = []
     rest = first
-    while rest is not None:
-        if rest.__class__ is not Cons:
-            raise type_error(rest, "LIST")
+    while rest.__class__ is Cons:
         results.append(call(rest.car if by_element else rest))
         rest = rest.cdr
+    if rest is not None:
+        raise type_error(rest, "LIST")
     return results
 
 
 def _collect_many(call: Any, rests: list[Value], by_element: bool) -> list[Value]:
     results: list[Value] = []
+    if len(rests) == 2 and by_element:
+        one, other = rests
+        while one.__class__ is Cons and other.__class__ is Cons:
+            results.append(call(one.car, other.car))
+            one, other = one.cdr, other.cdr
+        rests = [one, other]
     while True:
         for rest in rests:
             if rest is None:

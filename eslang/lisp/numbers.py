@@ -31,7 +31,7 @@ def check_number(value: Value, name: str) -> Value:
 
 def check_integer(value: Value, name: str) -> int:
     """VALUE, if it is an integer; else a type error of the function NAME."""
-    if is_integer(value):
+    if value.__class__ is int:
         integer: int = value
         return integer
     raise type_error(value, "INTEGER", name)

@@ -87,7 +87,8 @@ def _char(string: Value, index: Value, name: str) -> Value:
 
 def _set_char(string: Value, index: Value, char: Value, name: str) -> Value:
     text = check_string(string, name).text
-    if not 0 <= check_integer(index, name) < len(text):
+    if index.__class__ is not int or not 0 <= index < len(text):
+        check_integer(index, name)
         raise index_out_of_range(string, index)
     string.text = text[:index] + check_character(char, name) + text[index + 1 :]
     return char
