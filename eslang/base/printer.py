@@ -17,10 +17,10 @@ from eslang.base.failure import simple_error
 from eslang.base.lists import Cons
 from eslang.base.number_text import float_text, integer_text, rational_text
 from eslang.base.packages import Package
-from eslang.base.sharing import COMPOUND, contains_itself, shared_parts
+from eslang.base.sharing import COMPOUND, Part, contains_itself, is_compound, object_parts, shared_parts
 from eslang.base.symbol_text import symbol_text
 from eslang.base.symbols import Keyword, Symbol, Value, lisp_name
-from eslang.base.text import Array, Character, String
+from eslang.base.text import Array, Character, String, Vector
 
 _PREFIXES = {
     Symbol.intern(name, package): prefix
@@ -36,7 +36,7 @@ _PREFIXES = {
 _BACKQUOTES = {"`": 1, ",": -1, ",@": -1}
 _LOGICAL_BINDING = Symbol.intern("LOGICAL-BINDING", "ESL")
 _SUSPICIOUS = 20_000  # conses printed before we look whether the structure contains itself
-_NESTED_OBJECTS = 50  # objects that print themselves inside one another
+_NESTED_OBJECTS = 50  # objects that print themselves, whole, inside one another
 
 
 class WriteSettings(NamedTuple):
@@ -73,7 +73,7 @@ def princ(value: Value, settings: WriteSettings = PLAIN) -> str:
 
 def write_text(value: Value, settings: WriteSettings) -> str:
     """VALUE written as SETTINGS say."""
-    if value.__class__ not in COMPOUND:
+    if value.__class__ in _ATOMS or not is_compound(value):
         return atom_text(value, settings)
     if settings.circle:
         return _Printer(settings, shared_parts(value)).text_of(value)
@@ -84,7 +84,7 @@ def write_text(value: Value, settings: WriteSettings) -> str:
 
 
 def atom_text(value: Value, settings: WriteSettings) -> str:
-    """The text of a VALUE that is no list, vector or array."""
+    """The text of a VALUE that is not made of others, or prints itself whole."""
     writer = _ATOMS.get(value.__class__)
     return writer(value, settings) if writer is not None else _object(value, settings)
 
@@ -144,12 +144,12 @@ def unreadable(text: str, value: Value, settings: WriteSettings) -> str:
 def _object(value: Value, settings: WriteSettings) -> str:
     if value.__class__.__name__ == "Ratio":
         return rational_text(value, settings.base, settings.radix)
-    write_itself = getattr(value, "print_lisp", None)
-    if write_itself is None or isinstance(value, type):
+    write_itself = getattr(type(value), "print_lisp", None)
+    if write_itself is None:
         return unreadable(foreign_text(value), value, settings)
     if len(settings.inside) > _NESTED_OBJECTS or any(around is value for around in settings.inside):
         return "..."
-    text = write_itself(settings._replace(inside=(*settings.inside, value)))
+    text = write_itself(value, settings._replace(inside=(*settings.inside, value)))
     return text if text.__class__ is str else str(text)
 
 
@@ -196,6 +196,7 @@ class _Printer:
         self.shared = shared  # id of each part met twice → its label, 0 until it is printed
         self.labels = 0
         self.backquotes = 0  # how many are open here
+        self.around: set[int] = set()  # the ids of the objects that are being written
         self.conses = 0
         self.out: list[str] = []
         self.work: list[tuple[Any, ...]] = []
@@ -214,17 +215,15 @@ class _Printer:
     def write(self, value: Value, depth: int) -> None:
         """Write VALUE, DEPTH levels down."""
         kind = value.__class__
-        if kind not in COMPOUND and kind is not _Row:
-            if kind not in _ATOMS and depth:
-                self.out.append(atom_text(value, self.settings._replace(depth=depth)))
-            else:
-                self.out.append(atom_text(value, self.settings))
+        if kind in _ATOMS:
+            self.out.append(atom_text(value, self.settings))
             return
         if self.shared is not None and id(value) in self.shared and self.labelled(value):
             return
         if kind is Cons and self.abbreviated(value, depth):
             return
-        if self.settings.level is not None and depth >= self.settings.level:
+        level = self.settings.level
+        if level is not None and depth >= level and (kind in COMPOUND or kind is _Row):
             self.out.append("#")
         elif kind is Cons:
             self.out.append("(")
@@ -232,9 +231,30 @@ class _Printer:
         elif kind is Array:
             self.out.append(f"#{len(value.dimensions)}A")
             self.write(rows(value), depth)
-        else:
+        elif kind is Vector or kind is _Row:
             self.out.append("(" if kind is _Row else "#(")
             self.write_items(value if kind is _Row else value.active(), 0, depth + 1)
+        else:
+            self.write_object(value, depth)
+
+    def write_object(self, value: Value, depth: int) -> None:
+        """Write an object by its parts, if it tells them, else whole."""
+        parts = object_parts(value)
+        if parts is None:
+            self.out.append(atom_text(value, self.settings._replace(depth=depth)))
+            return
+        if self.settings.level is not None and depth >= self.settings.level:
+            self.out.append("#")
+            return
+        if id(value) in self.around:
+            raise _Circular
+        self.around.add(id(value))
+        self.work.append((self.around.discard, id(value)))
+        for part in reversed(parts):
+            if part.__class__ is Part:
+                self.work.append((self.write, part.value, depth + 1))
+            else:
+                self.work.append((self.out.append, part))
 
     def labelled(self, value: Value) -> bool:
         """Write the label of a shared VALUE; true if that is all there is to write."""

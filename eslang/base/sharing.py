@@ -1,10 +1,13 @@
 """Which parts of a structure are met more than once, and whether it contains itself.
 
-Lists and vectors can be joined to anything, themselves included. Whoever walks
-them to the end asks here first. Nothing is kept on Python's stack.
+Lists, vectors and structures can be joined to anything, themselves included.
+Whoever walks them to the end asks here first. Nothing is kept on Python's
+stack. An object of a higher floor tells its parts by a method `lisp_parts()`.
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 from eslang.base.lists import Cons
 from eslang.base.symbols import Value
@@ -13,11 +16,37 @@ from eslang.base.text import Array, Vector
 COMPOUND = frozenset((Cons, Vector, Array))
 
 
+class Part:
+    """A value among the texts that an object's `lisp_parts` gives."""
+
+    __slots__ = ("value",)
+
+    def __init__(self, value: Value) -> None:
+        self.value = value
+
+
+def object_parts(value: Value) -> list[Any] | None:
+    """The texts and Parts that VALUE, an object of a higher floor, is written with; None if it has none."""
+    make = getattr(type(value), "lisp_parts", None)
+    parts: list[Any] | None = make(value) if make is not None else None
+    return parts
+
+
+def is_compound(value: Value) -> bool:
+    """True for what is made of other values, and so may contain itself."""
+    return value.__class__ in COMPOUND or object_parts(value) is not None
+
+
 def parts_of(value: Value) -> list[Value]:
     """The compound values that a compound VALUE is made of."""
+    parts: list[Value]
     if value.__class__ is Cons:
-        return [part for part in (value.car, value.cdr) if part.__class__ in COMPOUND]
-    return [part for part in value.items if part.__class__ in COMPOUND]
+        parts = [value.car, value.cdr]
+    elif value.__class__ is Vector or value.__class__ is Array:
+        parts = value.items
+    else:
+        parts = [part.value for part in object_parts(value) or () if part.__class__ is Part]
+    return [part for part in parts if is_compound(part)]
 
 
 def shared_parts(value: Value) -> dict[int, int]:

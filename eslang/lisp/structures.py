@@ -12,7 +12,7 @@ from typing import Any
 
 from eslang.base.failure import TYPE_ERROR, Failure, simple_error
 from eslang.base.lists import items
-from eslang.base.printer import write_text
+from eslang.base.sharing import Part
 from eslang.base.symbols import Datum, Symbol, Value, truth
 from eslang.compile.registry import function
 from eslang.lisp.arguments import UNSUPPLIED, take_keys
@@ -49,20 +49,20 @@ class Structure(Datum):
         self.type = kind
         self.items = values
 
-    def print_lisp(self, settings: Any) -> str:
-        """#S(NAME :SLOT value ...), or what the type's own printer writes."""
-        printer = self.printer()
-        if printer is not None:
-            stream = StringOutputStream()
-            printer(self, stream, truth(settings.escape))
-            return stream.take()
-        if settings.level is not None and settings.depth >= settings.level:
-            return "#"
-        inner = settings._replace(depth=settings.depth + 1)
-        parts = [write_text(self.type.name, inner)]
+    def lisp_parts(self) -> list[Any] | None:
+        """#S(NAME :SLOT value ...) for the printer, unless the type has a printer of its own."""
+        if self.printer() is not None:
+            return None
+        parts: list[Any] = ["#S(", Part(self.type.name)]
         for name, value in zip(self.type.slot_names(), self.items, strict=True):
-            parts.append(f":{name} {write_text(value, inner)}")
-        return f"#S({' '.join(parts)})"
+            parts += [f" :{name} ", Part(value)]
+        return [*parts, ")"]
+
+    def print_lisp(self, settings: Any) -> str:
+        """What the type's own printer writes."""
+        stream = StringOutputStream()
+        self.printer()(self, stream, truth(settings.escape))
+        return stream.take()
 
     def printer(self) -> Any:
         """The innermost printer of this structure's type and those it includes."""

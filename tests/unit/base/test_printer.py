@@ -12,6 +12,7 @@ from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.packages import Package
 from eslang.base.printer import READABLE, prin1, princ, unreadable
 from eslang.base.ratios import Ratio
+from eslang.base.sharing import Part
 from eslang.base.symbols import Keyword, Symbol, T
 from eslang.base.text import Array, String, Vector, character
 
@@ -153,6 +154,31 @@ def test_an_object_may_print_itself() -> None:
     gadget = Gadget(None)
     gadget.part = lisp_list(gadget)
     assert prin1(gadget) == "#<GADGET (...)>"
+
+
+class Link:
+    """An object that tells the printer its parts."""
+
+    def __init__(self, after: Any) -> None:
+        self.after = after
+
+    def lisp_parts(self) -> list[Any]:
+        """A link and what comes after it."""
+        return ["#<LINK ", Part(self.after), ">"]
+
+
+def test_objects_that_tell_their_parts_print_at_any_depth() -> None:
+    chain: Any = None
+    for _ in range(20_000):
+        chain = Link(chain)
+    assert prin1(chain) == "#<LINK " * 20_000 + "NIL" + ">" * 20_000
+    assert prin1(lisp_list(Link(1)), READABLE._replace(level=1)) == "(#)"
+
+
+def test_such_an_object_that_contains_itself_prints_with_labels() -> None:
+    link = Link(None)
+    link.after = lisp_list(1, link)
+    assert prin1(link) == "#1=#<LINK (1 #1#)>"
 
 
 def test_a_python_object_prints_what_it_is() -> None:
