@@ -10,13 +10,13 @@ from __future__ import annotations
 from typing import Any
 
 from eslang.base.border import to_lisp, to_python
+from eslang.base.errors import python_failure
 from eslang.base.failure import WRONG_NUMBER_OF_ARGUMENTS, Failure, simple_error
 from eslang.base.symbols import Keyword, Symbol, Value, lisp_name
 from eslang.base.text import String
 from eslang.compile.registry import ESL, Definition
 from eslang.compile.signatures import Arity, arity, read_signature
 from eslang.runtime import failures
-from eslang.runtime.errors import python_failure
 
 
 def make_primitive(function: Any, name: str | None, signature: str | None) -> Definition:

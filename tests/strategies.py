@@ -340,7 +340,7 @@ class Writer:
     def recursion(self, scope: Scope, depth: int) -> str:
         """Local functions that call each other, counting down."""
         one, other = self.fresh("g"), self.fresh("g")
-        inside = scope._replace(variables=(*scope.variables, "n", "m"))
+        inside = scope._replace(variables=(*scope.variables, "m"))
         step = self.form(inside, depth)
         return (
             f"(labels (({one} (n m) (if (< n 1) {self.form(inside, depth)} (+ 1 ({other} (- n 1) {step})))) "

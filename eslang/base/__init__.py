@@ -1,6 +1,6 @@
 """What everything is made of; imports nothing of ours from a higher floor.
 
-In reading order: symbols, lists, text, ratios, many (values), spans, failure,
+In reading order: symbols, lists, text, ratios, many (values), spans, failure, errors,
 diagnostics, suggest, render (trouble, as data and as text), decoding, packages,
 character_names, number_text, symbol_text, sharing, printer, shown (values as text),
 control (jumps), image (all that one interpreter knows by name), resolve (which

@@ -31,7 +31,7 @@ from eslang.compile.core import (
     Seq,
     Variable,
 )
-from eslang.compile.expand import expand_macro
+from eslang.compile.expand import MOST, expand_macro, refuse_endless
 from eslang.compile.inline import INLINE
 from eslang.compile.registry import Definition
 from eslang.compile.scope import LocalMacro, Scope, SymbolMacro
@@ -73,6 +73,7 @@ class Analyser:
         self.span = span  # of the innermost form that has one
         self.block_cost = 1  # how many Python blocks a block or tagbody is taken for: 1, or 3 at most
         self.names: dict[str, int] = {}
+        self.expanding = 0  # how many macros are being expanded inside one another
         self.definition: str | None = None  # the definition around the form, for `= in`
         self.uses = uses
         self.notices = notices
@@ -221,7 +222,12 @@ class Analyser:
         expansion = expand_macro(form, expander, scope, self)
         if expansion.__class__ is Cons:
             self.spans.copy_from(expansion, form)
-        return self.node(expansion, scope)
+        self.expanding += 1
+        if self.expanding > MOST:
+            refuse_endless(form, self)
+        node = self.node(expansion, scope)
+        self.expanding -= 1
+        return node
 
     def use(self, kind: str, symbol: Symbol, arguments: list[Node] | None, form: Value, scope: Scope) -> None:
         """Note that the program mentions a global name."""

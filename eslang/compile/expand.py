@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from eslang.base.control import Failed
 from eslang.base.diagnostics import EslError
+from eslang.base.errors import to_failure
 from eslang.base.failure import Failure
 from eslang.base.image import Image
 from eslang.base.lists import Cons
@@ -18,6 +19,8 @@ from eslang.compile.scope import LocalMacro, Scope, SymbolMacro
 if TYPE_CHECKING:
     from eslang.compile.analyser import Analyser
 
+MOST = 1000  # expansions inside one another
+
 
 def expand_macro(form: Cons, expander: Any, scope: Scope, analyser: Analyser) -> Value:
     """The expansion of FORM; what goes wrong in the expander is an error of the program."""
@@ -26,14 +29,16 @@ def expand_macro(form: Cons, expander: Any, scope: Scope, analyser: Analyser) ->
         return expander(form, scope)
     except EslError:
         raise
-    except (Failure, Failed) as failed:
-        failure = failed.value if isinstance(failed, Failed) else failed
-        analyser.fail(
-            "macro-failed",
-            f"expanding `{shown(form.car)}` failed: {failure_text(failure)}",
-        )
     except RecursionError:
-        analyser.fail("nested-too-deep", f"expanding `{shown(form.car)}` does not come to an end")
+        refuse_endless(form, analyser)
+    except (Exception, Failed) as wrong:
+        failure = wrong.value if isinstance(wrong, Failed) else to_failure(wrong)
+        analyser.fail("macro-failed", f"expanding `{shown(form.car)}` failed: {failure_text(failure)}")
+
+
+def refuse_endless(form: Cons, analyser: Analyser) -> NoReturn:
+    """Say that the macro of FORM expands into itself for ever."""
+    analyser.fail("nested-too-deep", f"expanding `{shown(form.car)}` does not come to an end")
 
 
 def failure_text(failure: Failure) -> str:

@@ -18,7 +18,7 @@ from eslang.base.spans import Span, Spans
 from eslang.base.symbols import Symbol, Value
 from eslang.compile import backquote, bindings, core_forms, definitions, destructuring, exits, functions
 from eslang.compile.analyser import Analyser, Use
-from eslang.compile.expand import expand_macro
+from eslang.compile.expand import MOST, expand_macro, refuse_endless
 from eslang.compile.purity import is_pure
 from eslang.compile.scope import LocalMacro, Scope
 from eslang.compile.unit import Unit
@@ -94,23 +94,21 @@ class Compiler:
 
     def _expanded(self, form: Value, spans: Spans, span: Span | None) -> Value:
         """FORM with its macros expanded at the head, so that a PROGN shows."""
-        while (
-            form.__class__ is Cons
-            and isinstance(form.car, Symbol)
-            and form.car not in self.image.special_forms
-        ):
-            expander = self.image.cell(form.car).macro
-            if expander is None:
-                break
+        for _ in range(MOST):
+            operator = form.car if form.__class__ is Cons else None
+            if not isinstance(operator, Symbol) or operator in self.image.special_forms:
+                return form
+            cell = self.image.cell(operator)
+            if cell.macro is None:
+                return form
             analyser, scope = self._scope(spans, spans.of(form) or span)
-            definition = self.image.cell(form.car).definition
-            if definition is not None:
-                analyser.check_shape(definition, form)
-            expansion = expand_macro(form, expander, scope, analyser)
+            if cell.definition is not None:
+                analyser.check_shape(cell.definition, form)
+            expansion = expand_macro(form, cell.macro, scope, analyser)
             if expansion.__class__ is Cons:
                 spans.copy_from(expansion, form)
             form = expansion
-        return form
+        refuse_endless(form, analyser)
 
     def _scope(self, spans: Spans, span: Span | None) -> tuple[Analyser, Scope]:
         analyser = Analyser(self.image, spans, span, self._expander, self.uses, self.expanders, self.notices)

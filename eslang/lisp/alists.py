@@ -11,14 +11,15 @@ from eslang.base.sameness import is_eql
 from eslang.base.symbols import Datum, Value
 from eslang.compile.registry import function
 from eslang.lisp.arguments import take_keys
-from eslang.lisp.matching import Judge, judge_if, judge_item
+from eslang.lisp.matching import Choice, judge_if, judge_item
 
 _TESTS = ("TEST", "TEST-NOT", "KEY")
 _KEY = ("KEY",)
 
 
-def _entry(alist: Value, by_car: bool, judge: Judge, sign: bool) -> Value:
+def _entry(alist: Value, by_car: bool, choice: Choice) -> Value:
     """The first entry of ALIST whose car (or cdr) the judge accepts."""
+    judge, sign = choice
     for cell in cells(alist):
         entry = cell.car
         if entry is not None:
@@ -44,37 +45,37 @@ def assoc(item: Value, alist: Value, *options: Value) -> Value:
                 rest = rest.cdr
         except AttributeError:
             pass  # what is wrong, the long way tells
-    return _entry(alist, True, *judge_item(item, *take_keys(options, _TESTS)))
+    return _entry(alist, True, judge_item(item, *take_keys(options, _TESTS)))
 
 
 @function("(assoc-if predicate alist &key key)")
 def assoc_if(predicate: Value, alist: Value, *options: Value) -> Value:
     """Return the first entry of ALIST whose car satisfies PREDICATE, or NIL."""
-    return _entry(alist, True, judge_if(predicate, *take_keys(options, _KEY)), True)
+    return _entry(alist, True, judge_if(predicate, True, *take_keys(options, _KEY)))
 
 
 @function("(assoc-if-not predicate alist &key key)")
 def assoc_if_not(predicate: Value, alist: Value, *options: Value) -> Value:
     """Return the first entry of ALIST whose car fails PREDICATE, or NIL."""
-    return _entry(alist, True, judge_if(predicate, *take_keys(options, _KEY)), False)
+    return _entry(alist, True, judge_if(predicate, False, *take_keys(options, _KEY)))
 
 
 @function("(rassoc item alist &key test test-not key)")
 def rassoc(item: Value, alist: Value, *options: Value) -> Value:
     """Return the first entry of ALIST whose cdr matches ITEM, or NIL."""
-    return _entry(alist, False, *judge_item(item, *take_keys(options, _TESTS)))
+    return _entry(alist, False, judge_item(item, *take_keys(options, _TESTS)))
 
 
 @function("(rassoc-if predicate alist &key key)")
 def rassoc_if(predicate: Value, alist: Value, *options: Value) -> Value:
     """Return the first entry of ALIST whose cdr satisfies PREDICATE, or NIL."""
-    return _entry(alist, False, judge_if(predicate, *take_keys(options, _KEY)), True)
+    return _entry(alist, False, judge_if(predicate, True, *take_keys(options, _KEY)))
 
 
 @function("(rassoc-if-not predicate alist &key key)")
 def rassoc_if_not(predicate: Value, alist: Value, *options: Value) -> Value:
     """Return the first entry of ALIST whose cdr fails PREDICATE, or NIL."""
-    return _entry(alist, False, judge_if(predicate, *take_keys(options, _KEY)), False)
+    return _entry(alist, False, judge_if(predicate, False, *take_keys(options, _KEY)))
 
 
 @function("(acons key datum alist)")

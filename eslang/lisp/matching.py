@@ -15,10 +15,12 @@ from eslang.base.failure import simple_error
 from eslang.base.running import to_function
 from eslang.base.sameness import is_eql
 from eslang.base.symbols import Symbol, T, Value
+from eslang.base.text import Character
 from eslang.lisp.hashing import eql_key, equal_key, equalp_key
 from eslang.lisp.predicates import eq, eql, equal, equalp, is_equal, is_equalp
 
 Judge = Callable[[Value], Value]
+Choice = tuple[Judge, bool]  # a judge and its sign
 Agreement = Callable[[Value, Value], bool]
 
 _KNOWN: dict[Any, tuple[Agreement, Callable[[Value], Any]]] = {
@@ -29,7 +31,7 @@ _KNOWN: dict[Any, tuple[Agreement, Callable[[Value], Any]]] = {
 }
 
 
-def judge_item(item: Value, test: Value, test_not: Value, key: Value) -> tuple[Judge, bool]:
+def judge_item(item: Value, test: Value, test_not: Value, key: Value) -> Choice:
     """The judge, and its sign, of what matches ITEM."""
     if test is None and test_not is None:
         judge = _same_as(item)
@@ -50,7 +52,7 @@ def judge_item(item: Value, test: Value, test_not: Value, key: Value) -> tuple[J
 
 
 def _same_as(item: Value) -> Judge:
-    if item is None or isinstance(item, Symbol):
+    if item is None or isinstance(item, (Symbol, Character)):
         return lambda element: T if element is item else None
     if item.__class__ is int:
         return lambda element: T if element.__class__ is int and element == item else None
@@ -62,10 +64,10 @@ def _after(key: Value, judge: Judge) -> Judge:
     return lambda element: judge(take(element))
 
 
-def judge_if(predicate: Value, key: Value) -> Judge:
-    """The judge of what satisfies PREDICATE."""
+def judge_if(predicate: Value, sign: bool, key: Value) -> Choice:
+    """The judge of what satisfies PREDICATE, or, with the SIGN False, of what fails it."""
     judge: Judge = to_function(predicate)
-    return judge if key is None else _after(key, judge)
+    return (judge if key is None else _after(key, judge)), sign
 
 
 def _test_function(test: Value, test_not: Value) -> Any:

@@ -14,9 +14,9 @@ from eslang.base.symbols import Value
 from eslang.base.text import Vector
 from eslang.compile.registry import function
 from eslang.lisp.arguments import take_keys
-from eslang.lisp.matching import Agreement, Judge, agreement, hash_key, keyed
+from eslang.lisp.matching import Agreement, agreement, hash_key, keyed
 from eslang.lisp.sequences import elements, length, like, limits, section, store
-from eslang.lisp.sequences_search import by_item, by_predicate
+from eslang.lisp.sequences_search import Chosen, by_item, by_predicate
 
 _RANGE = ("FROM-END", "START", "END", "COUNT")
 _TESTS = ("TEST", "TEST-NOT", "KEY", *_RANGE)
@@ -26,9 +26,9 @@ _ITEM_KEYS = "&key test test-not key from-end start end count"
 _PREDICATE_KEYS = "&key key from-end start end count"
 
 
-def _chosen(whole: list[Value], sequence: Value, judge: Judge, sign: bool, options: list[Value]) -> list[int]:
+def _places(whole: list[Value], sequence: Value, chosen: Chosen) -> list[int]:
     """The places, in rising order, of at most COUNT elements that the judge accepts."""
-    from_end, start, end, count = options
+    (judge, sign), (from_end, start, end, count) = chosen
     first, stop = limits(sequence, len(whole), start, end)
     if count is not None and count.__class__ is not int:
         raise type_error(count, "INTEGER")
@@ -49,7 +49,8 @@ def _without(whole: list[Value], places: list[int]) -> list[Value]:
     return [element for place, element in enumerate(whole) if place not in dropped]
 
 
-def _remove(sequence: Value, judge: Judge, sign: bool, options: list[Value]) -> Value:
+def _remove(sequence: Value, chosen: Chosen) -> Value:
+    (judge, sign), options = chosen
     whole = elements(sequence)
     if options == _UNLIMITED:
         kept = []
@@ -57,13 +58,13 @@ def _remove(sequence: Value, judge: Judge, sign: bool, options: list[Value]) -> 
             if (judge(element) is None) is sign:
                 kept.append(element)
         return like(sequence, kept)
-    places = _chosen(whole, sequence, judge, sign, options)
+    places = _places(whole, sequence, chosen)
     return like(sequence, _without(whole, places)) if places else sequence
 
 
-def _delete(sequence: Value, judge: Judge, sign: bool, options: list[Value]) -> Value:
+def _delete(sequence: Value, chosen: Chosen) -> Value:
     whole = elements(sequence)
-    return _drop(sequence, whole, _chosen(whole, sequence, judge, sign, options))
+    return _drop(sequence, whole, _places(whole, sequence, chosen))
 
 
 def _drop(sequence: Value, whole: list[Value], places: list[int]) -> Value:
@@ -94,43 +95,43 @@ def _unlink(lst: Value, places: set[int]) -> Value:
 @function(f"(remove item sequence {_ITEM_KEYS})")
 def remove(item: Value, sequence: Value, *options: Value) -> Value:
     """Return SEQUENCE without the elements that ITEM matches."""
-    return _remove(sequence, *by_item(item, options, _TESTS))
+    return _remove(sequence, by_item(item, options, _TESTS))
 
 
 @function(f"(remove-if predicate sequence {_PREDICATE_KEYS})")
 def remove_if(predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return SEQUENCE without the elements that satisfy PREDICATE."""
-    return _remove(sequence, *by_predicate(predicate, True, options, _KEY))
+    return _remove(sequence, by_predicate(predicate, True, options, _KEY))
 
 
 @function(f"(remove-if-not predicate sequence {_PREDICATE_KEYS})")
 def remove_if_not(predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return SEQUENCE without the elements that fail PREDICATE."""
-    return _remove(sequence, *by_predicate(predicate, False, options, _KEY))
+    return _remove(sequence, by_predicate(predicate, False, options, _KEY))
 
 
 @function(f"(delete item sequence {_ITEM_KEYS})")
 def delete(item: Value, sequence: Value, *options: Value) -> Value:
     """Return SEQUENCE, changed to lack the elements that ITEM matches."""
-    return _delete(sequence, *by_item(item, options, _TESTS))
+    return _delete(sequence, by_item(item, options, _TESTS))
 
 
 @function(f"(delete-if predicate sequence {_PREDICATE_KEYS})")
 def delete_if(predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return SEQUENCE, changed to lack the elements that satisfy PREDICATE."""
-    return _delete(sequence, *by_predicate(predicate, True, options, _KEY))
+    return _delete(sequence, by_predicate(predicate, True, options, _KEY))
 
 
 @function(f"(delete-if-not predicate sequence {_PREDICATE_KEYS})")
 def delete_if_not(predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return SEQUENCE, changed to lack the elements that fail PREDICATE."""
-    return _delete(sequence, *by_predicate(predicate, False, options, _KEY))
+    return _delete(sequence, by_predicate(predicate, False, options, _KEY))
 
 
-def _replaced(new: Value, sequence: Value, judge: Judge, sign: bool, options: list[Value]) -> list[Value]:
+def _replaced(new: Value, sequence: Value, chosen: Chosen) -> list[Value]:
     whole = elements(sequence)
     result = whole[:]
-    for place in _chosen(whole, sequence, judge, sign, options):
+    for place in _places(whole, sequence, chosen):
         result[place] = new
     return result
 
@@ -138,37 +139,37 @@ def _replaced(new: Value, sequence: Value, judge: Judge, sign: bool, options: li
 @function(f"(substitute new old sequence {_ITEM_KEYS})")
 def substitute(new: Value, old: Value, sequence: Value, *options: Value) -> Value:
     """Return a copy of SEQUENCE with NEW for all that OLD matches."""
-    return like(sequence, _replaced(new, sequence, *by_item(old, options, _TESTS)))
+    return like(sequence, _replaced(new, sequence, by_item(old, options, _TESTS)))
 
 
 @function(f"(substitute-if new predicate sequence {_PREDICATE_KEYS})")
 def substitute_if(new: Value, predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return a copy of SEQUENCE with NEW for all that satisfies PREDICATE."""
-    return like(sequence, _replaced(new, sequence, *by_predicate(predicate, True, options, _KEY)))
+    return like(sequence, _replaced(new, sequence, by_predicate(predicate, True, options, _KEY)))
 
 
 @function(f"(substitute-if-not new predicate sequence {_PREDICATE_KEYS})")
 def substitute_if_not(new: Value, predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return a copy of SEQUENCE with NEW for all that fails PREDICATE."""
-    return like(sequence, _replaced(new, sequence, *by_predicate(predicate, False, options, _KEY)))
+    return like(sequence, _replaced(new, sequence, by_predicate(predicate, False, options, _KEY)))
 
 
 @function(f"(nsubstitute new old sequence {_ITEM_KEYS})")
 def nsubstitute(new: Value, old: Value, sequence: Value, *options: Value) -> Value:
     """Store NEW for all in SEQUENCE that OLD matches."""
-    return store(sequence, _replaced(new, sequence, *by_item(old, options, _TESTS)))
+    return store(sequence, _replaced(new, sequence, by_item(old, options, _TESTS)))
 
 
 @function(f"(nsubstitute-if new predicate sequence {_PREDICATE_KEYS})")
 def nsubstitute_if(new: Value, predicate: Value, sequence: Value, *options: Value) -> Value:
     """Store NEW for all in SEQUENCE that satisfies PREDICATE."""
-    return store(sequence, _replaced(new, sequence, *by_predicate(predicate, True, options, _KEY)))
+    return store(sequence, _replaced(new, sequence, by_predicate(predicate, True, options, _KEY)))
 
 
 @function(f"(nsubstitute-if-not new predicate sequence {_PREDICATE_KEYS})")
 def nsubstitute_if_not(new: Value, predicate: Value, sequence: Value, *options: Value) -> Value:
     """Store NEW for all in SEQUENCE that fails PREDICATE."""
-    return store(sequence, _replaced(new, sequence, *by_predicate(predicate, False, options, _KEY)))
+    return store(sequence, _replaced(new, sequence, by_predicate(predicate, False, options, _KEY)))
 
 
 def _duplicates(sequence: Value, options: tuple[Value, ...]) -> tuple[list[Value], list[int]]:
@@ -214,7 +215,8 @@ def remove_duplicates(sequence: Value, *options: Value) -> Value:
 @function("(delete-duplicates sequence &key test test-not key from-end start end)")
 def delete_duplicates(sequence: Value, *options: Value) -> Value:
     """Return SEQUENCE, changed to have no two elements that match."""
-    return _drop(sequence, *_duplicates(sequence, options))
+    whole, dropped = _duplicates(sequence, options)
+    return _drop(sequence, whole, dropped)
 
 
 @function("(fill sequence item &key start end)")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from eslang.base.symbols import Value
 from eslang.compile.registry import function
 from eslang.lisp.arguments import take_keys
-from eslang.lisp.matching import Judge, agreement, judge_if, judge_item, keyed
+from eslang.lisp.matching import Choice, agreement, judge_if, judge_item, keyed
 from eslang.lisp.sequences import elements, limits, section, walk
 
 _RANGE = ("FROM-END", "START", "END")
@@ -13,27 +13,26 @@ _TESTS = ("TEST", "TEST-NOT", "KEY", *_RANGE)
 _KEY = ("KEY", *_RANGE)
 
 
-def by_item(
-    item: Value, options: tuple[Value, ...], names: tuple[str, ...]
-) -> tuple[Judge, bool, list[Value]]:
-    """The judge for ITEM, its sign, and the options after :key among NAMES."""
+Chosen = tuple[Choice, list[Value]]  # what is looked for, and the options after :key
+
+
+def by_item(item: Value, options: tuple[Value, ...], names: tuple[str, ...]) -> Chosen:
+    """What ITEM matches, and the options after :key among NAMES."""
     if not options:
-        return *judge_item(item, None, None, None), [None] * (len(names) - 3)
+        return judge_item(item, None, None, None), [None] * (len(names) - 3)
     test, test_not, key, *others = take_keys(options, names)
-    return *judge_item(item, test, test_not, key), others
+    return judge_item(item, test, test_not, key), others
 
 
-def by_predicate(
-    predicate: Value, sign: bool, options: tuple[Value, ...], names: tuple[str, ...]
-) -> tuple[Judge, bool, list[Value]]:
-    """The judge for PREDICATE, the SIGN, and the options after :key among NAMES."""
+def by_predicate(predicate: Value, sign: bool, options: tuple[Value, ...], names: tuple[str, ...]) -> Chosen:
+    """What satisfies PREDICATE (or fails it), and the options after :key among NAMES."""
     key, *others = take_keys(options, names)
-    return judge_if(predicate, key), sign, others
+    return judge_if(predicate, sign, key), others
 
 
-def _place(sequence: Value, judge: Judge, sign: bool, options: list[Value]) -> tuple[Value, Value]:
+def _place(sequence: Value, chosen: Chosen) -> tuple[Value, Value]:
     """The first (or last) element that the judge accepts, and its place; NIL, NIL for none."""
-    from_end, start, end = options
+    (judge, sign), (from_end, start, end) = chosen
     if from_end is not None:
         whole = elements(sequence)
         first, stop = limits(sequence, len(whole), start, end)
@@ -52,41 +51,41 @@ def _place(sequence: Value, judge: Judge, sign: bool, options: list[Value]) -> t
 @function("(find item sequence &key test test-not key from-end start end)")
 def find(item: Value, sequence: Value, *options: Value) -> Value:
     """Return the first element of SEQUENCE that ITEM matches, or NIL."""
-    return _place(sequence, *by_item(item, options, _TESTS))[0]
+    return _place(sequence, by_item(item, options, _TESTS))[0]
 
 
 @function("(find-if predicate sequence &key key from-end start end)")
 def find_if(predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return the first element of SEQUENCE that satisfies PREDICATE, or NIL."""
-    return _place(sequence, *by_predicate(predicate, True, options, _KEY))[0]
+    return _place(sequence, by_predicate(predicate, True, options, _KEY))[0]
 
 
 @function("(find-if-not predicate sequence &key key from-end start end)")
 def find_if_not(predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return the first element of SEQUENCE that fails PREDICATE, or NIL."""
-    return _place(sequence, *by_predicate(predicate, False, options, _KEY))[0]
+    return _place(sequence, by_predicate(predicate, False, options, _KEY))[0]
 
 
 @function("(position item sequence &key test test-not key from-end start end)")
 def position(item: Value, sequence: Value, *options: Value) -> Value:
     """Return where in SEQUENCE ITEM first matches an element, or NIL."""
-    return _place(sequence, *by_item(item, options, _TESTS))[1]
+    return _place(sequence, by_item(item, options, _TESTS))[1]
 
 
 @function("(position-if predicate sequence &key key from-end start end)")
 def position_if(predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return where in SEQUENCE an element first satisfies PREDICATE, or NIL."""
-    return _place(sequence, *by_predicate(predicate, True, options, _KEY))[1]
+    return _place(sequence, by_predicate(predicate, True, options, _KEY))[1]
 
 
 @function("(position-if-not predicate sequence &key key from-end start end)")
 def position_if_not(predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return where in SEQUENCE an element first fails PREDICATE, or NIL."""
-    return _place(sequence, *by_predicate(predicate, False, options, _KEY))[1]
+    return _place(sequence, by_predicate(predicate, False, options, _KEY))[1]
 
 
-def _count(sequence: Value, judge: Judge, sign: bool, options: list[Value]) -> int:
-    from_end, start, end = options
+def _count(sequence: Value, chosen: Chosen) -> int:
+    (judge, sign), (from_end, start, end) = chosen
     counted = section(sequence, start, end)
     number = 0
     for element in counted if from_end is None else reversed(counted):
@@ -98,19 +97,19 @@ def _count(sequence: Value, judge: Judge, sign: bool, options: list[Value]) -> i
 @function("(count item sequence &key test test-not key from-end start end)")
 def count(item: Value, sequence: Value, *options: Value) -> Value:
     """Return how many elements of SEQUENCE ITEM matches."""
-    return _count(sequence, *by_item(item, options, _TESTS))
+    return _count(sequence, by_item(item, options, _TESTS))
 
 
 @function("(count-if predicate sequence &key key from-end start end)")
 def count_if(predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return how many elements of SEQUENCE satisfy PREDICATE."""
-    return _count(sequence, *by_predicate(predicate, True, options, _KEY))
+    return _count(sequence, by_predicate(predicate, True, options, _KEY))
 
 
 @function("(count-if-not predicate sequence &key key from-end start end)")
 def count_if_not(predicate: Value, sequence: Value, *options: Value) -> Value:
     """Return how many elements of SEQUENCE fail PREDICATE."""
-    return _count(sequence, *by_predicate(predicate, False, options, _KEY))
+    return _count(sequence, by_predicate(predicate, False, options, _KEY))
 
 
 _TWO_RANGES = ("TEST", "TEST-NOT", "KEY", "FROM-END", "START1", "END1", "START2", "END2")

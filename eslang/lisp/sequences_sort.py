@@ -69,22 +69,27 @@ def _merge(values: list[Value], left: list[int], right: list[int], precedes: Any
             x = values[left[i]]
 
 
-@function("(stable-sort sequence predicate &key key)")
-def stable_sort(sequence: Value, predicate: Value, *options: Value) -> Value:
-    """Put SEQUENCE in order: X before Y where (PREDICATE X Y); return it.
-
-    Elements of which neither precedes keep their order.
-    """
+def _sorted(sequence: Value, predicate: Value, options: tuple[Value, ...]) -> Value:
+    """SEQUENCE, put in order in its place."""
     (key,) = take_keys(options, ("KEY",))
     whole = elements(sequence)
     order = _order(keyed(whole, key), to_function(predicate))
     return store(sequence, [whole[place] for place in order])
 
 
+@function("(stable-sort sequence predicate &key key)")
+def stable_sort(sequence: Value, predicate: Value, *options: Value) -> Value:
+    """Put SEQUENCE in order: X before Y where (PREDICATE X Y); return it.
+
+    Elements of which neither precedes keep their order.
+    """
+    return _sorted(sequence, predicate, options)
+
+
 @function("(sort sequence predicate &key key)")
 def sort(sequence: Value, predicate: Value, *options: Value) -> Value:
     """Put SEQUENCE in order: X before Y where (PREDICATE X Y); return it."""
-    return stable_sort(sequence, predicate, *options)
+    return _sorted(sequence, predicate, options)
 
 
 @function("(merge result-type sequence-1 sequence-2 predicate &key key)")

@@ -15,14 +15,15 @@ from eslang.base.lists import SUSPICIOUS, Cons, cells, from_items, items
 from eslang.base.symbols import Datum, Value, truth
 from eslang.compile.registry import function
 from eslang.lisp.arguments import take_keys
-from eslang.lisp.matching import Judge, agreement, hash_key, judge_if, judge_item, keyed
+from eslang.lisp.matching import Choice, agreement, hash_key, judge_if, judge_item, keyed
 
 _TESTS = ("TEST", "TEST-NOT", "KEY")
 _KEY = ("KEY",)
 
 
-def _tail(lst: Value, judge: Judge, sign: bool) -> Value:
+def _tail(lst: Value, choice: Choice) -> Value:
     """The first tail of LST whose car the judge accepts."""
+    judge, sign = choice
     for cell in cells(lst):
         if (judge(cell.car) is not None) is sign:
             return cell
@@ -42,19 +43,19 @@ def member(item: Value, lst: Value, *options: Value) -> Value:
             if rest.car is item:
                 return rest
             rest = rest.cdr
-    return _tail(lst, *judge_item(item, *take_keys(options, _TESTS)))
+    return _tail(lst, judge_item(item, *take_keys(options, _TESTS)))
 
 
 @function("(member-if predicate list &key key)")
 def member_if(predicate: Value, lst: Value, *options: Value) -> Value:
     """Return the first tail of LIST whose element satisfies PREDICATE, or NIL."""
-    return _tail(lst, judge_if(predicate, *take_keys(options, _KEY)), True)
+    return _tail(lst, judge_if(predicate, True, *take_keys(options, _KEY)))
 
 
 @function("(member-if-not predicate list &key key)")
 def member_if_not(predicate: Value, lst: Value, *options: Value) -> Value:
     """Return the first tail of LIST whose element fails PREDICATE, or NIL."""
-    return _tail(lst, judge_if(predicate, *take_keys(options, _KEY)), False)
+    return _tail(lst, judge_if(predicate, False, *take_keys(options, _KEY)))
 
 
 @function("(adjoin item list &key test test-not key)")
@@ -62,7 +63,7 @@ def adjoin(item: Value, lst: Value, *options: Value) -> Value:
     """Return LIST with ITEM in front, unless an element matches it already."""
     test, test_not, key = take_keys(options, _TESTS)
     (sought,) = keyed([item], key)
-    if _tail(lst, *judge_item(sought, test, test_not, key)) is not None:
+    if _tail(lst, judge_item(sought, test, test_not, key)) is not None:
         return lst
     return Cons(item, lst)
 

@@ -13,7 +13,7 @@ from eslang.base.symbols import Value, truth
 from eslang.compile.registry import function
 from eslang.lisp.arguments import UNSUPPLIED, take_keys
 from eslang.lisp.conses import car
-from eslang.lisp.matching import Judge, agreement, judge_if, judge_item
+from eslang.lisp.matching import Choice, agreement, judge_if, judge_item
 
 _TESTS = ("TEST", "TEST-NOT", "KEY")
 _KEY = ("KEY",)
@@ -46,45 +46,46 @@ def copy_tree(tree: Value) -> Value:
     return _rebuild(tree, lambda value: UNSUPPLIED)
 
 
-def _substitute(new: Value, tree: Value, judge: Judge, sign: bool, *, copy: bool = True) -> Value:
+def _substitute(new: Value, tree: Value, choice: Choice, *, copy: bool = True) -> Value:
     """TREE with NEW for each subtree that the judge accepts."""
+    judge, sign = choice
     return _rebuild(tree, lambda value: new if (judge(value) is not None) is sign else UNSUPPLIED, copy=copy)
 
 
 @function("(subst new old tree &key test test-not key)")
 def subst(new: Value, old: Value, tree: Value, *options: Value) -> Value:
     """Return a copy of TREE with NEW for each part that matches OLD."""
-    return _substitute(new, tree, *judge_item(old, *take_keys(options, _TESTS)))
+    return _substitute(new, tree, judge_item(old, *take_keys(options, _TESTS)))
 
 
 @function("(subst-if new predicate tree &key key)")
 def subst_if(new: Value, predicate: Value, tree: Value, *options: Value) -> Value:
     """Return a copy of TREE with NEW for each part that satisfies PREDICATE."""
-    return _substitute(new, tree, judge_if(predicate, *take_keys(options, _KEY)), True)
+    return _substitute(new, tree, judge_if(predicate, True, *take_keys(options, _KEY)))
 
 
 @function("(subst-if-not new predicate tree &key key)")
 def subst_if_not(new: Value, predicate: Value, tree: Value, *options: Value) -> Value:
     """Return a copy of TREE with NEW for each part that fails PREDICATE."""
-    return _substitute(new, tree, judge_if(predicate, *take_keys(options, _KEY)), False)
+    return _substitute(new, tree, judge_if(predicate, False, *take_keys(options, _KEY)))
 
 
 @function("(nsubst new old tree &key test test-not key)")
 def nsubst(new: Value, old: Value, tree: Value, *options: Value) -> Value:
     """Change TREE so that NEW stands for each part that matches OLD."""
-    return _substitute(new, tree, *judge_item(old, *take_keys(options, _TESTS)), copy=False)
+    return _substitute(new, tree, judge_item(old, *take_keys(options, _TESTS)), copy=False)
 
 
 @function("(nsubst-if new predicate tree &key key)")
 def nsubst_if(new: Value, predicate: Value, tree: Value, *options: Value) -> Value:
     """Change TREE so that NEW stands for each part that satisfies PREDICATE."""
-    return _substitute(new, tree, judge_if(predicate, *take_keys(options, _KEY)), True, copy=False)
+    return _substitute(new, tree, judge_if(predicate, True, *take_keys(options, _KEY)), copy=False)
 
 
 @function("(nsubst-if-not new predicate tree &key key)")
 def nsubst_if_not(new: Value, predicate: Value, tree: Value, *options: Value) -> Value:
     """Change TREE so that NEW stands for each part that fails PREDICATE."""
-    return _substitute(new, tree, judge_if(predicate, *take_keys(options, _KEY)), False, copy=False)
+    return _substitute(new, tree, judge_if(predicate, False, *take_keys(options, _KEY)), copy=False)
 
 
 def _from_alist(alist: Value, options: tuple[Value, ...]) -> Callable[[Value], Value]:

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from eslang.base.control import Abort, Failed, Retry, Unwind
+from eslang.base.errors import to_failure
 from eslang.base.failure import (
     CONTROL_ERROR,
     DIVISION_BY_ZERO,
@@ -30,7 +31,6 @@ from eslang.base.failure import (
 )
 from eslang.base.running import running
 from eslang.base.symbols import Value
-from eslang.runtime.errors import to_failure
 from eslang.runtime.story import Asked, Story, as_place, capture_stack
 
 HOST_CAUSES = (

@@ -19,7 +19,7 @@ from eslang.base.render import render
 from eslang.base.spans import Source, Span
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.lisp.output import shown
-from eslang.tools.report import bug_report
+from eslang.tools.report import bug_report, remark
 
 PROMPT = "? "
 INTERRUPTED = 130
@@ -51,6 +51,7 @@ class Conversation:
         self.errors = errors  # None: among the answers, as in a transcript
         self.echo = echo  # print the forms: the input is not seen otherwise
         self.colour = colour  # of diagnostics
+        self.remarks = False  # say a little more about a failure than the papers do
         self.prompted = False  # the prompt stands there, waiting
         self.failure: Failure | None = None  # the last one that nothing answered
         self.mistakes = 0  # forms that were no right program
@@ -114,6 +115,8 @@ class Conversation:
             values = self.interp.evaluate(reading)
         except Failure as failure:
             self.failure = failure  # the narrator has spoken
+            if self.remarks:
+                self.write_error(remark(failure, self.interp))
         except EslError as error:
             self.complain(error)
         except Stop as stop:
@@ -149,7 +152,7 @@ class Conversation:
     def write_error(self, text: str) -> None:
         """Write a diagnostic, on a line of its own."""
         self.output.fresh_line()
-        text = text.rstrip("\n") + "\n"
+        text = text.rstrip("\n") + "\n" if text else ""
         if self.errors is None:
             self.output.write(text)
         else:

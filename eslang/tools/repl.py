@@ -60,7 +60,7 @@ def opened_conversation(interp: Any, *, echo: bool) -> Conversation:
     conversation = Conversation(interp, sys.stderr, echo=echo, colour=wants_colour(sys.stderr))
 
     def tell_why(conversation: Conversation) -> None:
-        conversation.output.write(why(conversation.failure))
+        conversation.output.write(why(conversation.failure, interp))
 
     def tell_help(conversation: Conversation) -> None:
         conversation.output.write(HELP)
@@ -104,6 +104,7 @@ def at_terminal(interp: Any) -> int:
     from eslang.tools.editing import Editor
 
     conversation = opened_conversation(interp, echo=False)
+    conversation.remarks = True
     editor = Editor(interp, PROMPT)
     interp.output.write(WELCOME.format(version=__version__))
     while True:

@@ -8,14 +8,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import TextIO
+from typing import Any, TextIO
 
 from eslang.base.diagnostics import Diagnostic, Label
-from eslang.base.failure import Failure
+from eslang.base.failure import UNBOUND_VARIABLE, UNDEFINED_FUNCTION, Failure
+from eslang.base.failure_text import message_of
 from eslang.base.printer import prin1
 from eslang.base.render import render
 from eslang.base.spans import Source, Span
+from eslang.base.suggest import nearest
+from eslang.base.symbols import Symbol
 from eslang.runtime.story import Asked, Frame, Place, Story
+from eslang.tools.names import known_names
 from eslang.tools.narrator import retries
 
 SHOWN_FRAMES = 10  # of a deeper stack, as many at both ends together
@@ -39,17 +43,46 @@ def wants_colour(stream: TextIO) -> bool:
     return stream.isatty() and not os.environ.get("NO_COLOR")
 
 
-def failure_report(failure: Failure, colour: bool = False) -> str:
+def failure_report(failure: Failure, interp: Any = None, colour: bool = False) -> str:
     """FAILURE in a few lines: where it was raised, with what, and who called whom."""
     story: Story | None = failure.story
-    place = story.place if story is not None else None
-    labels = (Label(span_of(place), "raised here"),) if place is not None else ()
-    notes = stack_lines(story.stack) if story is not None else []
     message = failure_text(failure)
-    if not notes:
+    if story is None or story.place is None:
         return f"failure: {message}"
-    diagnostic = Diagnostic("failure", message, labels, notes=tuple(notes), severity="failure")
-    return render(diagnostic, colour)
+    label = Label(span_of(story.place), sentence_of(failure) or "raised here")
+    notes = tuple(stack_lines(story.stack))
+    hint = near_name(failure, interp)
+    return render(Diagnostic("failure", message, (label,), None, hint, notes, "failure"), colour)
+
+
+def sentence_of(failure: Failure) -> str:
+    """What a failure of the host means, in words; empty for a plan's own failures."""
+    words = message_of(failure)
+    return "" if words.startswith("Failure ") else words[0].lower() + words[1:].rstrip(".")
+
+
+def near_name(failure: Failure, interp: Any) -> str | None:
+    """What may have been meant by a name that means nothing, as a hint."""
+    if failure.cause not in (UNDEFINED_FUNCTION, UNBOUND_VARIABLE) or interp is None:
+        return None
+    symbol = failure.arguments[0]
+    if not isinstance(symbol, Symbol):
+        return None
+    names = [name.lower() for name, _ in known_names(interp)]
+    near = nearest(symbol.name.lower(), names)
+    return f"the nearest name that is known is `{near}`" if near else None
+
+
+def remark(failure: Failure, interp: Any) -> str:
+    """One line about FAILURE for the prompt, where the papers' two lines do not say it; else empty."""
+    if not failure.arguments:
+        return ""
+    parts = [
+        sentence_of(failure) or failure_text(failure),
+        near_name(failure, interp) or "",
+        ":why tells more",
+    ]
+    return "; " + "; ".join([part for part in parts if part]) + "\n"
 
 
 def span_of(place: Place) -> Span:
@@ -74,15 +107,16 @@ def stack_lines(stack: Sequence[Frame]) -> list[str]:
     return lines
 
 
-def why(failure: Failure | None) -> str:
+def why(failure: Failure | None, interp: Any = None) -> str:
     """All that is known of FAILURE: where, which procedures were asked, who called whom."""
     if failure is None:
         return "Nothing has failed yet.\n"
     story: Story | None = failure.story
     place = place_of(failure)
     lines = [f"{failure_text(failure)} was raised" + (f" at {place}" if place else "")]
+    lines += [text for text in (sentence_of(failure), near_name(failure, interp)) if text]
     if story is None:
-        return lines[0] + "\n"
+        return "\n".join(lines) + "\n"
     if story.asked:
         lines.append("Recovery procedures that were active, innermost first:")
         lines += asked_lines(story.asked)

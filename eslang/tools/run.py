@@ -85,7 +85,7 @@ def outcome(interp: Any, work: Callable[[], None]) -> int:
     except Failure as failure:
         from eslang.tools.report import failure_report, wants_colour
 
-        code = complain(interp, failure_report(failure, wants_colour(sys.stderr)), FAILED)
+        code = complain(interp, failure_report(failure, interp, wants_colour(sys.stderr)), FAILED)
     except EslError as error:
         from eslang.base.render import render
         from eslang.tools.report import wants_colour
