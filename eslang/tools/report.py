@@ -74,15 +74,10 @@ def near_name(failure: Failure, interp: Any) -> str | None:
 
 
 def remark(failure: Failure, interp: Any) -> str:
-    """One line about FAILURE for the prompt, where the papers' two lines do not say it; else empty."""
-    if not failure.arguments:
-        return ""
-    parts = [
-        sentence_of(failure) or failure_text(failure),
-        near_name(failure, interp) or "",
-        ":why tells more",
-    ]
-    return "; " + "; ".join([part for part in parts if part]) + "\n"
+    """One line for the prompt about a failure of the host, of which the papers tell nothing; else empty."""
+    sentence = sentence_of(failure)
+    parts = [sentence, near_name(failure, interp), ":why tells more"]
+    return "; " + "; ".join([part for part in parts if part]) if sentence else ""
 
 
 def span_of(place: Place) -> Span:

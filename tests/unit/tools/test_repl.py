@@ -148,6 +148,10 @@ def test_at_a_terminal_ctrl_c_returns_to_the_prompt(tmp_path: Path) -> None:
         assert "NEVER" not in terminal.until(r"Aborted\n\?")
         terminal.type("(not-finished\x03")
         terminal.until(r"\n\?")
+        terminal.type("(prnt 1)\r")
+        terminal.until(
+            r"Aborted\n; the function PRNT is undefined; the nearest name .* `print`; :why tells more\n\?"
+        )
         terminal.type("(list\r:still\r:there)\r")
         terminal.until(r"\(:STILL :THERE\)\n\?")
         terminal.type(":quit\r")
