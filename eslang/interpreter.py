@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from eslang import prelude
-from eslang.base.border import to_lisp, to_python
+from eslang.base.border import leave, to_lisp, to_python
 from eslang.base.control import Stop
 from eslang.base.decoding import decode
 from eslang.base.diagnostics import Diagnostic, EslError, error_at
@@ -32,7 +32,7 @@ from eslang.devices import widget
 from eslang.facts.unify import Patterns
 from eslang.lisp.loading import LOAD_PATHNAME
 from eslang.lisp.streams import OutputStream, standard_output
-from eslang.primitives import make_primitive
+from eslang.primitives import COMES, make_primitive
 from eslang.runtime.bindings import Bindings
 from eslang.runtime.chance import make_chance
 from eslang.runtime.clock import make_clock
@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from eslang.reader.reader import Reading
 
 F = TypeVar("F", bound=Callable[..., Any])
+LATER = {"signal": COMES, "call_async": COMES, "facts": COMES.replace("tasks", "the logical database")}
 DEEPEST = 400_000  # Python frames; what is deeper is a :stack-exhausted failure
 
 
@@ -201,8 +202,7 @@ class Interpreter:
 
     def load(self, path: str | Path) -> None:
         """Load a file of forms. Raises Failure, EslError, OSError."""
-        self._check_open()
-        with self.at_work():
+        with self.door():
             self.load_file(str(path), run_task)
 
     def load_file(self, path: str, run: Callable[[Any], Value]) -> None:
@@ -219,14 +219,12 @@ class Interpreter:
 
     def eval(self, text: str, name: str = "<eval>") -> Any:
         """The value of the last form in TEXT, as Python has it. Raises Failure, EslError."""
-        self._check_open()
-        with self.at_work():
+        with self.door():
             return to_python(self.texts.run(Source(name, text)))
 
     def call(self, name: str | Symbol, *arguments: Any) -> Any:
         """Call a function by name (or a function itself); runs until it ends. Raises Failure."""
-        self._check_open()
-        with self.at_work():
+        with self.door():
             designator: Any = self.symbol(name) if isinstance(name, str) else name
             values = [to_lisp(argument) for argument in arguments]
             return to_python(run_task(lambda: to_function(designator)(*values)))
@@ -255,15 +253,25 @@ class Interpreter:
     def primitive(self, function: F) -> F: ...
 
     @overload
-    def primitive(self, *, name: str | None = ..., signature: str | None = ...) -> Callable[[F], F]: ...
+    def primitive(
+        self, *, name: str | None = ..., signature: str | None = ..., blocking: bool = ...
+    ) -> Callable[[F], F]: ...
 
     def primitive(
-        self, function: Any = None, *, name: str | None = None, signature: str | None = None
+        self,
+        function: Any = None,
+        *,
+        name: str | None = None,
+        signature: str | None = None,
+        blocking: bool = False,
     ) -> Any:
         """Make a Python function a Lisp function; name and signature from Python's unless given.
 
         Raising Failure in it is (fail ...); any other error is a :python-error failure.
         """
+
+        if blocking:
+            raise NotImplementedError(f"a blocking primitive {COMES}")
 
         def register(made: Any) -> Any:
             definition = make_primitive(made, name, signature)
@@ -322,13 +330,23 @@ class Interpreter:
         """Stop what runs, soon, with its cleanups; safe to call from a signal handler."""
         self.ticks.stop(Stop(reason, code))
 
-    def _check_open(self) -> None:
+    def door(self) -> Door:
+        """Inside it, this interpreter is at work for Python code. Raises Failure if it is closed."""
         if self.closed:
             raise Failure("interpreter-closed")
+        return Door(self)
 
     def close(self) -> None:
         """End this interpreter; nothing can be called on it afterwards."""
         self.closed = True
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Say of what comes with later versions that it does."""
+            if name in LATER:
+                raise AttributeError(f"Interpreter.{name} {LATER[name]}", name=name, obj=self)
+            raise AttributeError(f"'Interpreter' object has no attribute '{name}'", name=name, obj=self)
 
     def __enter__(self) -> Interpreter:
         return self
@@ -351,3 +369,14 @@ class AtWork:
 
     def __exit__(self, *error: object) -> None:
         running.session = self.before
+
+
+class Door(AtWork):
+    """The same for Python code: a failure leaves with arguments as Python has them."""
+
+    __slots__ = ()
+
+    def __exit__(self, *error: object) -> None:
+        running.session = self.before
+        if isinstance(error[1], Failure):
+            leave(error[1])

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from eslang.base.border import to_lisp, to_python
+from eslang.base.border import enter, to_lisp, to_python
 from eslang.base.errors import python_failure
 from eslang.base.failure import WRONG_NUMBER_OF_ARGUMENTS, Failure, simple_error
 from eslang.base.symbols import Keyword, Symbol, Value, lisp_name
@@ -18,9 +18,14 @@ from eslang.compile.registry import ESL, Definition
 from eslang.compile.signatures import Arity, arity, read_signature
 from eslang.runtime import failures
 
+COROUTINE = 0x80 | 0x200  # what Python marks the code of an `async def` with
+COMES = "needs tasks, which this version of eslang does not have yet"
+
 
 def make_primitive(function: Any, name: str | None, signature: str | None) -> Definition:
     """The definition of a primitive, named and described as asked, or after the Python function."""
+    if getattr(getattr(function, "__code__", None), "co_flags", 0) & COROUTINE:
+        raise NotImplementedError(f"{function.__name__} is an `async def`; a primitive that waits {COMES}")
     if signature is None:
         signature = _signature(function, name or lisp_name(function.__name__).lower())
     name = name or str(read_signature(signature)[0])
@@ -49,7 +54,7 @@ def _wrapped(function: Any, name: str, expected: Arity, positional: int | None) 
         try:
             result = function(*given, **keywords)
         except Failure as failure:
-            failure.arguments = tuple(to_lisp(argument) for argument in failure.arguments)
+            enter(failure)
             return failures.signal(failure, continuable=True)
         except Exception as error:
             return failures.signal(python_failure(error), continuable=False)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from eslang.base.failure import Failure
 from eslang.base.lists import Cons, from_items
 from eslang.base.many import Values, primary
 from eslang.base.symbols import T, Value
@@ -45,6 +46,21 @@ def _python_list(lst: Cons) -> Any:
         elements.append(rest.car)
         rest = rest.cdr
     return lst if rest is not None else [to_python(element) for element in elements]
+
+
+def leave(failure: Failure) -> None:
+    """Give FAILURE, on its way out to Python code, arguments as Python has them."""
+    if failure.kept is None:
+        failure.kept = failure.arguments
+        failure.arguments = tuple([to_python(argument) for argument in failure.arguments])
+
+
+def enter(failure: Failure) -> None:
+    """Give FAILURE, which Python code raised, arguments as Lisp has them."""
+    if failure.kept is not None:
+        failure.arguments, failure.kept = failure.kept, None
+    else:
+        failure.arguments = tuple([to_lisp(argument) for argument in failure.arguments])
 
 
 def to_lisp(value: Any) -> Value:

@@ -26,13 +26,23 @@ GENERAL_FAILURE = Keyword("GENERAL-FAILURE")
 
 
 class Failure(Exception):
-    """A plan did not succeed: a cause (a keyword) and the arguments that came with it."""
+    """A plan did not succeed: a cause (a keyword) and the arguments that came with it.
+
+    What a plan raises reaches Python code with arguments as Python has them;
+    `values` are they as Lisp has them.
+    """
 
     story: Any = None  # what the runtime noted of it: where, who was asked (runtime/story.py)
+    kept: tuple[Any, ...] | None = None  # the arguments as Lisp had them, once outside
 
     def __init__(self, cause: Any, *arguments: Any) -> None:
         self.cause: Any = Keyword(cause) if isinstance(cause, str) else cause
         self.arguments: tuple[Any, ...] = arguments
+
+    @property
+    def values(self) -> tuple[Any, ...]:
+        """The arguments as Lisp has them."""
+        return self.arguments if self.kept is None else self.kept
 
     def __str__(self) -> str:
         shown = " ".join([str(self.cause), *(str(a) for a in self.arguments)])

@@ -18,9 +18,9 @@ Arguments = tuple[Any, ...]
 def message_of(failure: Failure) -> str:
     """FAILURE as a sentence."""
     make = _MESSAGES.get(failure.cause.name)
-    if make is None or not failure.arguments:
-        return " ".join(["Failure", prin1(failure.cause), *map(prin1, failure.arguments)])
-    return make(failure.arguments)
+    if make is None or not failure.values:
+        return " ".join(["Failure", prin1(failure.cause), *map(prin1, failure.values)])
+    return make(failure.values)
 
 
 def _words(arguments: Arguments) -> str:

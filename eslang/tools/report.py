@@ -28,7 +28,7 @@ FLAW = "This is a bug in eslang, not in your plan. Please send us what follows, 
 
 def failure_text(failure: Failure) -> str:
     """The cause of FAILURE and its arguments."""
-    parts = (failure.cause, *failure.arguments)
+    parts = (failure.cause, *failure.values)
     return " ".join([part if isinstance(part, str) else prin1(part) for part in parts])
 
 
@@ -65,7 +65,7 @@ def near_name(failure: Failure, interp: Any) -> str | None:
     """What may have been meant by a name that means nothing, as a hint."""
     if failure.cause not in (UNDEFINED_FUNCTION, UNBOUND_VARIABLE) or interp is None:
         return None
-    symbol = failure.arguments[0]
+    symbol = failure.values[0]
     if not isinstance(symbol, Symbol):
         return None
     names = [name.lower() for name, _ in known_names(interp)]

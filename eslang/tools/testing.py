@@ -174,7 +174,7 @@ def failed_text(failure: Failure) -> str:
     """How a test failed, and where."""
     place = place_of(failure)
     where = f"{place}: " if place else ""
-    if failure.cause is EXPECTATION_FAILED and len(failure.arguments) == 3:
-        form, expected, found = (prin1(argument) for argument in failure.arguments)
+    if failure.cause is EXPECTATION_FAILED and len(failure.values) == 3:
+        form, expected, found = (prin1(argument) for argument in failure.values)
         return f"{where}`{form}`\n  expected  {expected}\n  found     {found}"
     return f"{where}failed with `{failure_text(failure)}`"
