@@ -30,6 +30,8 @@ class Coverage:
 
     def __enter__(self) -> Coverage:
         self._before = sys.gettrace()
+        # CPython 3.12 tells instructions only if a frame has asked for them before.
+        sys._getframe().f_trace_opcodes = True
         sys.settrace(self._on_call)
         return self
 
