@@ -130,6 +130,7 @@ def test_events_are_traced_as_json_lines(tmp_path: Path) -> None:
     assert events[0]["failure"] == {"cause": ":STUCK", "arguments": [3]}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "form",
     [
@@ -161,6 +162,7 @@ def test_ctrl_c_ends_a_plan_after_its_cleanups(form: str) -> None:
     assert "Traceback" not in err
 
 
+@pytest.mark.slow
 def test_a_cleanup_that_does_not_end_does_not_outlive_the_time_limit() -> None:
     started = time.monotonic()
     ended = run("run", "--time-limit", "0.2", "-e", "(with-cleanup-procedure (loop) (loop))")
@@ -199,6 +201,7 @@ def test_a_plan_may_quit_with_a_code_after_its_cleanups() -> None:
     assert call(["repl"], stdin="1 (quit 3) 2") == Ended(3, "? 1\n1\n? (quit 3)\n", "")
 
 
+@pytest.mark.slow
 def test_output_appears_as_it_happens() -> None:
     with start("run", "-e", "(progn (princ :first) (terpri) (loop))") as running:
         assert running.stdout is not None
@@ -216,6 +219,7 @@ def test_a_bug_of_ours_asks_to_be_sent(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "This is a bug in eslang" in err and "we are wrong" in err
 
 
+@pytest.mark.slow
 def test_a_plan_that_is_compiled_already_starts_with_few_imports(tmp_path: Path) -> None:
     plan = written(tmp_path, "(princ 1)")
     code = (

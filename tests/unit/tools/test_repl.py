@@ -120,6 +120,7 @@ def test_a_quiet_prompt_tells_of_failures_that_nobody_answers() -> None:
     assert "Failure :B, no recovery available.\nAborted\n" in out
 
 
+@pytest.mark.slow
 def test_ctrl_c_ends_a_form_from_a_pipe() -> None:
     with start("repl") as running:
         assert running.stdin is not None and running.stdout is not None
