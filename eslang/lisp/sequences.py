@@ -8,10 +8,9 @@ a Lisp function.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from itertools import repeat
 
 from eslang.base.failure import index_out_of_range, simple_error, type_error
-from eslang.base.lists import SUSPICIOUS, Cons, check_end, from_items, items
+from eslang.base.lists import SUSPICIOUS, Cons, cells, check_end, from_items, items
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import CHARACTERS, Character, String, Vector
 from eslang.compile.registry import function
@@ -70,16 +69,7 @@ def walk(sequence: Value, start: Value = None, end: Value = None) -> Iterable[Va
 
 
 def _walk_list(lst: Value) -> Iterator[Value]:
-    rest = lst
-    while True:
-        for _ in repeat(None, SUSPICIOUS):
-            if rest.__class__ is not Cons:
-                if rest is None:
-                    return
-                raise type_error(lst, "LIST")
-            yield rest.car
-            rest = rest.cdr
-        check_end(lst)
+    return (cell.car for cell in cells(lst))
 
 
 def _walk_part(lst: Value, start: Value, end: Value) -> Iterator[Value]:
