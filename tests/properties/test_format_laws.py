@@ -7,6 +7,7 @@ from decimal import ROUND_HALF_UP, Decimal, localcontext
 from hypothesis import given
 from hypothesis import strategies as st
 
+import eslang.lisp.format_machine  # noqa: F401 -- the directives register themselves
 from eslang.base.failure import Failure
 from eslang.base.text import String
 from eslang.lisp.format_control import Directive, parse_control
