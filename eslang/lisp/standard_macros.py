@@ -13,7 +13,9 @@ from eslang.base.lists import Cons, lisp_list
 from eslang.base.symbols import Symbol, T, Value
 from eslang.compile.registry import CL, macro
 
-IF, PROGN, LET, COND, AND, OR = (Symbol.intern(name, CL) for name in ("IF", "PROGN", "LET", "COND", "AND", "OR"))
+IF, PROGN, LET, COND, AND, OR = (
+    Symbol.intern(name, CL) for name in ("IF", "PROGN", "LET", "COND", "AND", "OR")
+)
 
 
 def _body(forms: Value) -> Value:
