@@ -17,6 +17,7 @@ from eslang.tools.outline import Clause, Node, Place, clauses_of, outline
 
 SHOWN = 60  # columns of a form in the report
 LIBRARY = "stdlib"
+TOOL = 4  # one of the numbers that Python leaves to tools without a name of their own
 
 
 class Coverage:
@@ -29,22 +30,32 @@ class Coverage:
         self.kinds: dict[CodeType, bool] = {}
 
     def __enter__(self) -> Coverage:
-        self._before = sys.gettrace()
-        # CPython 3.12 tells instructions only if a frame has asked for them before.
-        sys._getframe().f_trace_opcodes = True
-        sys.settrace(self._on_call)
+        if sys.version_info >= (3, 12):
+            monitoring = sys.monitoring
+            monitoring.use_tool_id(TOOL, "eslang")
+            monitoring.register_callback(TOOL, monitoring.events.INSTRUCTION, self._on_place)
+            monitoring.set_events(TOOL, monitoring.events.INSTRUCTION)
+            monitoring.restart_events()
+        else:
+            self._before = sys.gettrace()
+            sys.settrace(self._on_call)
         return self
 
     def __exit__(self, *_: object) -> None:
-        sys.settrace(self._before)
+        if sys.version_info >= (3, 12):
+            sys.monitoring.set_events(TOOL, 0)
+            sys.monitoring.free_tool_id(TOOL)
+        else:
+            sys.settrace(self._before)
+
+    def _on_place(self, code: CodeType, offset: int) -> Any:
+        """An instruction is about to run: once is enough, so that what runs often costs nothing."""
+        if self._watches(code):
+            self.ran.add((code, offset))
+        return sys.monitoring.DISABLE  # type: ignore[attr-defined,unused-ignore]  # from 3.12 on
 
     def _on_call(self, frame: FrameType, event: str, argument: Any) -> Any:
-        code = frame.f_code
-        if code not in self.kinds:
-            self.kinds[code] = self._is_plan(code.co_filename)
-            if self.kinds[code]:
-                self.codes.setdefault(code.co_filename, set()).update(codes_in(code))
-        if not self.kinds[code]:
+        if not self._watches(frame.f_code):
             return None
         frame.f_trace_opcodes, frame.f_trace_lines = True, False
         return self._on_instruction
@@ -53,6 +64,13 @@ class Coverage:
         if event == "opcode":
             self.ran.add((frame.f_code, frame.f_lasti))
         return self._on_instruction
+
+    def _watches(self, code: CodeType) -> bool:
+        if code not in self.kinds:
+            self.kinds[code] = self._is_plan(code.co_filename)
+            if self.kinds[code]:
+                self.codes.setdefault(code.co_filename, set()).update(codes_in(code))
+        return self.kinds[code]
 
     def _is_plan(self, name: str) -> bool:
         path = Path(name)
