@@ -89,3 +89,10 @@ def test_elements_are_compared_by_key_and_test() -> None:
     assert call("union", [[1, "a"]], [[1, "b"], [2, "c"]], key=fn("car")) == [[1, "a"], [2, "c"]]
     assert call("intersection", ["a", "b"], ["B", "c"], test=fn("equalp")) == ["b"]
     assert call("set-difference", [1, 5], [2], test=near) == [5]
+
+
+def test_set_functions_keep_the_order_of_their_lists() -> None:
+    assert call("union", [3, 1, 2], [5, 1, 4]) == [3, 1, 2, 5, 4]
+    assert call("intersection", [3, 1, 2], [2, 3]) == [3, 2]
+    assert call("set-difference", [3, 1, 2], [1]) == [3, 2]
+    assert call("set-exclusive-or", [3, 1, 2], [5, 1, 4]) == [3, 2, 5, 4]
