@@ -65,6 +65,11 @@ class Conversation:
             self.output.write(PROMPT)
             self.prompted = True
 
+    def typed(self) -> None:
+        """Somebody has typed a line behind the prompt; the terminal has shown it."""
+        self.prompted = False
+        self.output.column = 0
+
     def hear(self, text: str, *, last: bool = False) -> str:
         """Answer the forms of TEXT; return the beginning of a form that TEXT leaves unfinished.
 

@@ -7,6 +7,7 @@ the output is a transcript that `esl test` can replay. On a terminal the editor
 
 from __future__ import annotations
 
+import os
 import sys
 from typing import Any, TextIO
 
@@ -46,7 +47,7 @@ def repl(chosen: Chosen) -> int:
             if code:
                 sys.stderr.write(f"esl: `{path}` was not loaded to its end\n")
         try:
-            if sys.stdin.isatty() and sys.stdout.isatty():
+            if sys.stdin.isatty() and sys.stdout.isatty() and os.environ.get("TERM") != "dumb":
                 return at_terminal(interp)
             return from_pipe(interp, sys.stdin)
         except Leave as leave:
@@ -75,13 +76,15 @@ def opened_conversation(interp: Any, *, echo: bool) -> Conversation:
 
 
 def from_pipe(interp: Any, stream: TextIO) -> int:
-    """Answer what STREAM says; 65 if some of it was no right program."""
-    conversation = opened_conversation(interp, echo=True)
+    """Answer what STREAM (or a terminal without a screen) says; 65 if some of it was no right program."""
+    conversation = opened_conversation(interp, echo=not stream.isatty())
     pending, balance = "", Balance()
     conversation.prompt()
     while line := stream.readline():
         pending += line
         balance.feed(line)
+        if not conversation.echo:
+            conversation.typed()
         if balance.surely_open:
             continue
         with Interrupts(interp) as interrupts:

@@ -13,6 +13,7 @@ from typing import Any, TextIO
 from eslang.base.failure import Failure
 from eslang.base.printer import prin1
 from eslang.base.text import String
+from eslang.runtime.story import Place
 
 
 class Tracer:
@@ -38,6 +39,8 @@ def plain(value: Any) -> Any:
     """VALUE as JSON has it: numbers and strings as themselves, a failure as its parts, the rest printed."""
     if value is None or isinstance(value, (int, str)):
         return value
+    if isinstance(value, Place):
+        return str(value)
     if isinstance(value, float):
         return value if isfinite(value) else prin1(value)
     if isinstance(value, String):

@@ -169,3 +169,13 @@ def test_a_history_that_cannot_be_kept_is_no_harm(tmp_path: Path) -> None:
         terminal.until(r"\n3\n\?")
         terminal.type("\x04")
         assert terminal.wait() == 0
+
+
+@pytest.mark.slow
+def test_a_terminal_without_a_screen_has_a_prompt_too(tmp_path: Path) -> None:
+    with Terminal(["env", "TERM=dumb", *PYTHON, "repl"], XDG_STATE_HOME=str(tmp_path)) as terminal:
+        terminal.until(r"\? ")
+        terminal.type("(list 1\r2)\r")
+        assert terminal.until(r"\(1 2\)\n\? ") == "(list 1\n2)\n(1 2)\n? "
+        terminal.type("\x04")
+        assert terminal.wait() == 0
