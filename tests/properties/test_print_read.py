@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -100,6 +101,7 @@ def test_digits_mean_what_they_were_made_of(number: int, base: int) -> None:
     assert text.startswith("-") == (number < 0)
 
 
+@pytest.mark.slow
 @given(st.lists(st.sampled_from("abcd"), min_size=1, max_size=6), st.data())
 def test_printing_ends_whatever_contains_whatever(shape: list[str], draw: st.DataObject) -> None:
     makers: dict[str, Callable[[], Value]] = {

@@ -92,6 +92,7 @@ def test_quoted_forms_print_with_their_marks(form: Any, text: str) -> None:
     assert prin1(form) == text
 
 
+@pytest.mark.slow
 def test_structures_of_any_depth_and_length_print() -> None:
     deep: Any = None
     for _ in range(100_000):

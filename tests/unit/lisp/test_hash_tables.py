@@ -96,6 +96,7 @@ def test_foreign_objects_are_their_own_keys() -> None:
     assert fn("gethash")(second, made) is None
 
 
+@pytest.mark.slow
 def test_deep_keys_do_not_exhaust_the_stack() -> None:
     tree: object = 1
     for _ in range(100_000):

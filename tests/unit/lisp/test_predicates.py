@@ -43,6 +43,7 @@ def test_sameness(test: str, x: object, y: object, same: bool) -> None:
     assert (call(test, x, y) is True) is same
 
 
+@pytest.mark.slow
 def test_deep_structures_are_compared_without_recursion() -> None:
     def deep(bottom: int) -> object:
         tree: object = bottom

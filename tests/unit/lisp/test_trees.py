@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from values import call, fn, lisp, raw, symbol
 
 from eslang.base.lists import Cons, from_items
@@ -65,6 +66,7 @@ def test_copy_tree_shares_no_cons() -> None:
     assert copy.cdr.car is not tree.cdr.car
 
 
+@pytest.mark.slow
 def test_depth_is_bounded_by_memory_alone() -> None:
     tree: object = A
     for _ in range(100_000):

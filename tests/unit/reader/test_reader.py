@@ -206,6 +206,7 @@ def test_reading_one_form_at_an_offset():
     assert offset == 9
 
 
+@pytest.mark.slow
 def test_nesting_has_no_limit():
     form, depth = read("(" * 100_000 + ")" * 100_000), 0
     while form.__class__ is Cons:
