@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from eslang import prelude
 from eslang.base.border import leave, to_lisp, to_python
 from eslang.base.control import Stop
-from eslang.base.decoding import decode
+from eslang.base.decoding import decode, file_bytes
 from eslang.base.diagnostics import Diagnostic, EslError, error_at
 from eslang.base.failure import UNBOUND_VARIABLE, Failure
 from eslang.base.image import PACKAGE, Image
@@ -42,6 +41,9 @@ from eslang.runtime.ticks import Ticks
 from eslang.texts import Texts
 
 if TYPE_CHECKING:
+    from os import PathLike
+    from random import Random
+
     from eslang.compile.toplevel import Compiler
     from eslang.constructs.esl.doubles import Double
     from eslang.reader.reader import Reading
@@ -70,7 +72,7 @@ class Interpreter:
         self.image = Image()
         self.seed = seed
         self.clock = make_clock(clock)
-        self.chance = make_chance(seed)
+        self._chance: Random | None = None
         self.output = OutputStream(output) if output is not None else standard_output()
         self.hooks = Hooks(self.clock.now)
         self.bindings = Bindings(self.image)
@@ -167,6 +169,13 @@ class Interpreter:
 
     # --- running ---------------------------------------------------------------
 
+    @property
+    def chance(self) -> Random:
+        """The source of chance, made when first wanted."""
+        if self._chance is None:
+            self._chance = make_chance(self.seed)
+        return self._chance
+
     def at_work(self) -> AtWork:
         """Inside it, this interpreter is the one that Lisp functions serve."""
         return AtWork(self)
@@ -200,14 +209,14 @@ class Interpreter:
 
     # --- the embedder's doors --------------------------------------------------
 
-    def load(self, path: str | Path) -> None:
+    def load(self, path: str | PathLike[str]) -> None:
         """Load a file of forms. Raises Failure, EslError, OSError."""
         with self.door():
             self.load_file(str(path), run_task)
 
     def load_file(self, path: str, run: Callable[[Any], Value]) -> None:
         """Load a file, its forms run by RUN. *PACKAGE* and *LOAD-PATHNAME* are as before afterwards."""
-        source = decode(Path(path).read_bytes(), path)
+        source = decode(file_bytes(path), path)
         cells = self.image.cell(PACKAGE), self.image.cell(LOAD_PATHNAME)
         before = [cell.value for cell in cells]
         cells[1].value = String(path)
@@ -308,7 +317,7 @@ class Interpreter:
         definition: Definition | None = self.image.cell(symbol).definition
         return definition
 
-    def check(self, paths: Iterable[str | Path]) -> list[Diagnostic]:
+    def check(self, paths: Iterable[str | PathLike[str]]) -> list[Diagnostic]:
         """What can be known of a program, the files in order, without running it."""
         from eslang.compile.check import Checker
 
@@ -317,7 +326,7 @@ class Interpreter:
             checker = Checker(self.image, lambda unit, code: run_task(unit.load(code)))
             for path in paths:
                 try:
-                    source = decode(Path(path).read_bytes(), str(path))
+                    source = decode(file_bytes(path), str(path))
                 except EslError as error:
                     checker.found.append(error.diagnostic)
                     continue

@@ -7,7 +7,7 @@ special forms are wanted only when something is compiled.
 from __future__ import annotations
 
 import importlib
-from pathlib import Path
+import os
 
 LISP = [
     "predicates",
@@ -81,12 +81,14 @@ def import_rooms() -> None:
         importlib.import_module(name)
 
 
-def stdlib_folder() -> Path:
+def stdlib_folder() -> str:
     """Where stdlib/ is: inside the package in a wheel, beside it in a checkout."""
-    inside = Path(__file__).parent / "stdlib"
-    return inside if inside.is_dir() else Path(__file__).parent.parent / "stdlib"
+    package = os.path.dirname(__file__)
+    inside = os.path.join(package, "stdlib")
+    return inside if os.path.isdir(inside) else os.path.join(os.path.dirname(package), "stdlib")
 
 
-def stdlib_files() -> list[Path]:
+def stdlib_files() -> list[str]:
     """The files of stdlib/, in the order in which they are loaded."""
-    return [stdlib_folder() / f"{name}.esl" for name in FILES]
+    folder = stdlib_folder()
+    return [os.path.join(folder, f"{name}.esl") for name in FILES]

@@ -7,11 +7,12 @@ kept. What was loaded so far, and in which order, is part of the circumstances.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
-from pathlib import Path
 from types import FunctionType
 from typing import Any
 
+from eslang.base.decoding import decode, file_bytes
 from eslang.base.spans import Source
 from eslang.base.symbols import Value
 from eslang.compile import cache
@@ -52,9 +53,9 @@ class Texts:
         if written is not None:
             cache.keep(key, [written])
 
-    def load_library(self, paths: list[Path]) -> None:
+    def load_library(self, paths: list[str]) -> None:
         """Load the library, all of it or none from the cache."""
-        stats = [(path, path.stat()) for path in paths]
+        stats = [(path, os.stat(path)) for path in paths]
         named = [f"{path} {stat.st_size} {stat.st_mtime_ns}" for path, stat in stats]
         key = self.circumstances = cache.digest(cache.fingerprint(), *named)
         kept = cache.fetch(key)
@@ -64,7 +65,8 @@ class Texts:
             return
         entries = []
         for path in paths:
-            compiler, _ = self._compile(Source(f"<stdlib>/{path.name}", path.read_text(encoding="utf-8")))
+            source = decode(file_bytes(path), f"<stdlib>/{os.path.basename(path)}")
+            compiler, _ = self._compile(source)
             entries.append(cache.write_down(compiler))
         if all(entry is not None for entry in entries):
             cache.keep(key, [entry for entry in entries if entry is not None])

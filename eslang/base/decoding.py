@@ -6,8 +6,19 @@ compiled code is kept can be opened without loading it.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from eslang.base.diagnostics import EslError, error_at
 from eslang.base.spans import Source, Span
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+
+def file_bytes(path: str | PathLike[str]) -> bytes:
+    """What the file at PATH holds. Raises OSError."""
+    with open(path, "rb") as file:
+        return file.read()
 
 
 def decode(text: bytes, name: str) -> Source:

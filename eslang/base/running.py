@@ -8,7 +8,7 @@ even when one's primitive calls the other. (Decision 0002.)
 
 from __future__ import annotations
 
-import threading
+from _thread import _local as ThreadLocal  # what threading.local is, without the rest of threading
 from types import FunctionType
 from typing import Any
 
@@ -16,7 +16,7 @@ from eslang.base.failure import type_error, undefined_function
 from eslang.base.symbols import Symbol, Value
 
 
-class _Running(threading.local):
+class _Running(ThreadLocal):
     session: Any = None  # an eslang.interpreter.Session while one is at work
 
 

@@ -11,8 +11,6 @@ from __future__ import annotations
 import marshal
 import os
 import sys
-from hashlib import blake2b
-from pathlib import Path
 from types import CodeType
 from typing import Any, NamedTuple
 
@@ -21,6 +19,11 @@ from eslang.base.lists import Cons, from_items
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import CHARACTERS, Character, String, Vector
 from eslang.compile.code import Code
+
+try:
+    from _blake2 import blake2b  # what hashlib has, without all that hashlib brings along
+except ImportError:
+    from hashlib import blake2b
 
 FORMAT = 1
 
@@ -38,13 +41,13 @@ class Kept(NamedTuple):
     variants: bytes  # of a dict by number, taken apart only when one is wanted
 
 
-def folder() -> Path | None:
+def folder() -> str | None:
     """Where the cache is; None if there is to be none."""
     chosen = os.environ.get("ESLANG_CACHE")
     if chosen is not None:
-        return Path(chosen) if chosen else None
+        return chosen or None
     base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    return Path(base) / "eslang"
+    return os.path.join(base, "eslang")
 
 
 def fingerprint() -> str:
@@ -77,7 +80,7 @@ def fetch(key: str) -> list[Kept] | None:
     if where is None:
         return None
     try:
-        with open(where / key, "rb") as file:
+        with open(os.path.join(where, key), "rb") as file:
             check, data = file.read(32), file.read()
         if blake2b(data, digest_size=32).digest() != check:
             return None
@@ -91,12 +94,14 @@ def keep(key: str, entries: list[Kept]) -> None:
     where = folder()
     if where is None:
         return
-    temporary = where / f"{key}.{os.getpid()}"
+    kept = os.path.join(where, key)
+    temporary = f"{kept}.{os.getpid()}"
     try:
         data = marshal.dumps([tuple(entry) for entry in entries])
-        where.mkdir(parents=True, exist_ok=True)
-        temporary.write_bytes(blake2b(data, digest_size=32).digest() + data)
-        os.replace(temporary, where / key)
+        os.makedirs(where, exist_ok=True)
+        with open(temporary, "wb") as file:
+            file.write(blake2b(data, digest_size=32).digest() + data)
+        os.replace(temporary, kept)
     except (OSError, ValueError):
         return
 

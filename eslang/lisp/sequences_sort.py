@@ -51,22 +51,18 @@ def _merge(values: list[Value], left: list[int], right: list[int], precedes: Any
         return left + right
     if len(left) > 1 and precedes(values[right[0]], values[left[-1]]) is None:
         return left + right
-    merged = []
-    i = j = 0
-    x, y = values[left[0]], values[right[0]]
-    while True:
-        if precedes(y, x) is not None:
-            merged.append(right[j])
-            j += 1
-            if j == len(right):
-                return merged + left[i:]
-            y = values[right[j]]
-        else:
-            merged.append(left[i])
-            i += 1
-            if i == len(left):
-                return merged + right[j:]
-            x = values[left[i]]
+    merged: list[int] = []
+    taken, y = 0, values[right[0]]
+    for done, place in enumerate(left):
+        x = values[place]
+        while precedes(y, x) is not None:
+            merged.append(right[taken])
+            taken += 1
+            if taken == len(right):
+                return merged + left[done:]
+            y = values[right[taken]]
+        merged.append(place)
+    return merged + right[taken:]
 
 
 def _sorted(sequence: Value, predicate: Value, options: tuple[Value, ...]) -> Value:

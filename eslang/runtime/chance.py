@@ -1,12 +1,20 @@
-"""The one source of chance, seeded: same seed, same run."""
+"""The one source of chance, seeded: same seed, same run.
+
+Python's random is imported when chance is first wanted; few plans want it.
+"""
 
 from __future__ import annotations
 
-from random import Random
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from random import Random
 
 
 def make_chance(seed: int) -> Random:
     """A source of its own for one interpreter."""
+    from random import Random
+
     return Random(seed)
 
 

@@ -8,6 +8,7 @@ grammar would be read if the reader were Lark's own parser.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 from eslang import Interpreter
@@ -25,7 +26,7 @@ from tests.benchmarks.measure import Peer, Work
 def works() -> Iterator[Work]:
     """The one work of this file: the library's own text, as often as makes half a megabyte."""
     agent = Interpreter()
-    text = "".join(path.read_text(encoding="utf-8") for path in stdlib_files())
+    text = "".join(Path(path).read_text(encoding="utf-8") for path in stdlib_files())
     text = "".join(line for line in text.splitlines(keepends=True) if "#|" not in line)
     text *= max(1, 500_000 // len(text))
     resolve = resolve_in(agent.image)
