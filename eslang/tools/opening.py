@@ -15,7 +15,6 @@ from eslang.base.control import Stop
 from eslang.tools.options import Chosen, Usage
 
 LATER = ("scenario", "facts")  # options whose rooms are still to be built
-Listener = Callable[[Any], None]
 
 
 class OutputClosed(Stop):
@@ -63,7 +62,7 @@ def silence(stream: TextIO) -> None:
 
 
 @contextmanager
-def opened(chosen: Chosen, listener: Listener | None) -> Iterator[Any]:
+def opened(chosen: Chosen, listener: Callable[[Any], None] | None) -> Iterator[Any]:
     """An interpreter with LISTENER, as CHOSEN wants it; closed at the end."""
     from eslang.interpreter import Interpreter
 
