@@ -9,12 +9,19 @@ import re
 import select
 import struct
 import subprocess
+import sys
 import termios
 import time
 from collections.abc import Sequence
 
 from unit.tools.command import environment
 
+# Makes the terminal the one that Ctrl-C comes from, and becomes the command.
+OWN_TERMINAL = """
+import fcntl, os, sys, termios
+fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+os.execvp(sys.argv[1], sys.argv[1:])
+"""
 CONTROL = re.compile(
     r"\x1b\[[0-9;?]*[A-Za-z]|\x1b[()][A-Z0-9]|\x1b\][^\x07]*\x07|\x1b[=>78]|\x07|\x08|\x1b[^A-Za-z]*\Z"
 )
@@ -28,7 +35,12 @@ class Terminal:
         fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 100, 0, 0))
         settings = environment(TERM="xterm", PROMPT_TOOLKIT_NO_CPR="1", **variables)
         self.running = subprocess.Popen(
-            command, preexec_fn=lambda: os.login_tty(slave), env=settings, pass_fds=(slave,)
+            [sys.executable, "-c", OWN_TERMINAL, *command],
+            stdin=slave,
+            stdout=slave,
+            stderr=slave,
+            env=settings,
+            start_new_session=True,
         )
         os.close(slave)
         self.raw = ""
