@@ -7,11 +7,11 @@ ticks) comes from the runtime and is added by the interpreter.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from types import FunctionType
 from typing import Any
 
+from eslang.base.calls import spread
 from eslang.base.control import Exit, Go, ReturnFrom
 from eslang.base.failure import control_error, simple_error
 from eslang.base.lists import Cons, from_items
@@ -49,43 +49,6 @@ def receive(result: Value, count: int) -> tuple[Value, ...]:
     if result.__class__ is Values:
         return tuple(result[:count]) + (None,) * (count - len(result))
     return (result,) + (None,) * (count - 1)
-
-
-def spread(function: Any, arguments: list[Value]) -> Value:
-    """Call FUNCTION with ARGUMENTS; directly where they are few, to spare the C stack."""
-    match len(arguments):
-        case 0:
-            return function()
-        case 1:
-            return function(arguments[0])
-        case 2:
-            return function(arguments[0], arguments[1])
-        case 3:
-            return function(arguments[0], arguments[1], arguments[2])
-        case 4:
-            return function(arguments[0], arguments[1], arguments[2], arguments[3])
-    return reenter(function, arguments)
-
-
-if sys.version_info >= (3, 12):
-
-    def reenter(function: Any, arguments: list[Value]) -> Value:
-        """Call FUNCTION with any number of arguments."""
-        return function(*arguments)
-
-else:
-    DEEPEST = 1500
-    _depth = [0]
-
-    def reenter(function: Any, arguments: list[Value]) -> Value:
-        """Call FUNCTION with any number of arguments; such calls use the C stack on Python 3.11."""
-        if _depth[0] > DEEPEST:
-            raise RecursionError("too many calls with many arguments inside one another")
-        _depth[0] += 1
-        try:
-            return function(*arguments)
-        finally:
-            _depth[0] -= 1
 
 
 def call_with_values(function: Value, *results: Value) -> Value:

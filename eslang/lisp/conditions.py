@@ -27,7 +27,7 @@ from eslang.lisp.condition_types import (
     type_of_condition,
 )
 from eslang.lisp.types import Type, define_type
-from eslang.runtime.failures import Clause, Form, fail, run_form, signal
+from eslang.runtime.failures import Clause, Form, run_form, signal
 
 # --- defining and making -------------------------------------------------------------
 
@@ -192,13 +192,15 @@ def _clause(specifier: Value) -> Clause:
 
 
 def _call_with_clauses_many(clauses: Value, thunk: Value) -> Value:
-    return run_form(Form(), *_clauses(clauses), many_of(thunk))
+    listed, functions = _clauses(clauses)
+    return run_form(Form(), listed, functions, many_of(thunk))
 
 
 @function("(%call-with-clauses clauses thunk)", many=_call_with_clauses_many)
 def call_with_clauses(clauses: Value, thunk: Value) -> Value:
     """Call THUNK while CLAUSES, conses (type . function), are told of conditions; they may jump."""
-    return run_form(Form(), *_clauses(clauses), thunk)
+    listed, functions = _clauses(clauses)
+    return run_form(Form(), listed, functions, thunk)
 
 
 @function("(error datum &rest arguments)")
@@ -212,7 +214,7 @@ def error(datum: Value, *arguments: Value) -> Value:
     Fails:   with :error for a format control; with the keyword of the name for a type.
     """
     if isinstance(datum, Keyword):
-        return fail(datum, *arguments)
+        return signal(Failure(datum, *arguments), continuable=True)
     simple = Symbol.intern("SIMPLE-ERROR", "COMMON-LISP")
     return signal(condition_of(datum, from_items(arguments), simple), continuable=False)
 

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from eslang.base.calls import reenter, spread
 from eslang.base.control import Exit, Throw
 from eslang.base.failure import control_error, simple_error, type_error
 from eslang.base.lists import Cons, from_items, items
 from eslang.base.many import Values, many_of, pack, primary
 from eslang.base.running import running, to_function
+from eslang.base.stack import STACK
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.base.text import Vector
 from eslang.compile.lambda_list_words import MARKERS
 from eslang.compile.registry import function, variable
-from eslang.compile.support import LISP_SUPPORT, reenter, spread
+from eslang.compile.support import LISP_SUPPORT
 from eslang.runtime.failures import signal_error
 
 
@@ -167,6 +169,8 @@ def _catch(tag: Value, body: Value, *, many: bool) -> Value:
         return jump.value if many else primary(jump.value)
     finally:
         del catches[depth:]
+        if STACK.raised:
+            STACK.give_back()
 
 
 def _catch_many(tag: Value, body: Value) -> Value:

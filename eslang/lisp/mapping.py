@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from eslang.base.calls import spread
 from eslang.base.failure import type_error
 from eslang.base.lists import Cons, from_items
 from eslang.base.running import to_function
 from eslang.base.symbols import Value
 from eslang.compile.registry import function
-from eslang.compile.support import spread
 from eslang.lisp.conses import nconc
 
 

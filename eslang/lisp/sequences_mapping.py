@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from eslang.base.calls import spread
 from eslang.base.running import to_function
 from eslang.base.symbols import Value, truth
 from eslang.base.text import Vector
 from eslang.compile.registry import function
-from eslang.compile.support import spread
 from eslang.lisp.arguments import UNSUPPLIED, take_keys
 from eslang.lisp.matching import keyed
 from eslang.lisp.sequences import build, elements, length, section, store, walk

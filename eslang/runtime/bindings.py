@@ -8,46 +8,51 @@ from __future__ import annotations
 
 from typing import Any
 
+from eslang.base.failure import type_error
 from eslang.base.image import Cell, Image
 from eslang.base.lists import items
-from eslang.base.symbols import Value
+from eslang.base.symbols import Symbol, Value
 
 UNBOUND = object()
 
 
 class Bindings:
-    """The bindings of the running task, innermost last."""
+    """The bindings of the running task: what each hides, and the one outside it."""
 
     __slots__ = ("hidden", "image")
 
     def __init__(self, image: Image) -> None:
         self.image = image
-        self.hidden: list[tuple[Cell, Any]] = []
+        self.hidden: Any = None  # (cell, value, the next one outward)
 
     def bind(self, cell: Cell, value: Value) -> None:
         """Give CELL a new value, to be undone by `unbind`."""
-        self.hidden.append((cell, getattr(cell, "value", UNBOUND)))
+        self.hidden = (cell, getattr(cell, "value", UNBOUND), self.hidden)
         cell.value = value
 
     def bind_all(self, symbols: Value, values: Value) -> int:
         """PROGV: bind each symbol; a symbol without a value becomes unbound. How many there were."""
-        names = items(symbols)
+        cells = [self._cell(symbol) for symbol in items(symbols)]
         given = items(values)
-        for index, symbol in enumerate(names):
-            cell = self.image.cell(symbol)
+        for index, cell in enumerate(cells):
             if index < len(given):
                 self.bind(cell, given[index])
             else:
                 self.bind(cell, None)
                 del cell.value
-        return len(names)
+        return len(cells)
+
+    def _cell(self, symbol: Value) -> Cell:
+        """The cell of a symbol that can be bound."""
+        if not isinstance(symbol, Symbol):
+            raise type_error(symbol, "SYMBOL")
+        return self.image.cell(symbol)
 
     def unbind(self, count: int) -> None:
-        """Undo the last COUNT bindings."""
-        for _ in range(count):
-            cell, value = self.hidden.pop()
+        """Undo the last COUNT bindings. It calls nothing, since the stack may be full."""
+        while count:
+            cell, value, self.hidden = self.hidden
+            cell.value = value
             if value is UNBOUND:
-                if hasattr(cell, "value"):
-                    del cell.value
-            else:
-                cell.value = value
+                del cell.value
+            count -= 1

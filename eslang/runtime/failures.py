@@ -8,10 +8,10 @@ unwound (`signal_error`), so a procedure runs before anything is undone.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from eslang.base.calls import spread
 from eslang.base.control import Abort, Failed, Retry, Unwind
 from eslang.base.errors import to_failure
 from eslang.base.failure import (
@@ -30,6 +30,7 @@ from eslang.base.failure import (
     control_error,
 )
 from eslang.base.running import running
+from eslang.base.stack import STACK
 from eslang.base.symbols import Value
 from eslang.runtime.story import Asked, Story, as_place, capture_stack
 
@@ -45,7 +46,6 @@ HOST_CAUSES = (
     CONTROL_ERROR,
 )
 JUMP = object()  # what `answer` returns instead of a jump
-HEADROOM = 20_000  # frames that a procedure answering :stack-exhausted may use
 
 
 class Clause(NamedTuple):
@@ -173,12 +173,10 @@ def _call(
     dynamic: Dynamic, form: Form | None, procedure: Callable[..., Value], failure: Failure, arguments: Any
 ) -> Value:
     """Call a recovery procedure, with the chain set back to FORM."""
-    if failure.cause is STACK_EXHAUSTED:
-        procedure = _with_headroom(procedure)
     saved, dynamic.forms = dynamic.forms, form
     dynamic.answering.append(failure)
     try:
-        value = procedure(*arguments)
+        value = spread(procedure, arguments) if arguments else procedure()
     except BaseException as jump:
         dynamic.answering.pop()
         dynamic.forms = saved
@@ -190,21 +188,10 @@ def _call(
     return value
 
 
-def _with_headroom(procedure: Callable[..., Value]) -> Callable[..., Value]:
-    """PROCEDURE, with more of the stack for itself."""
-
-    def higher(*arguments: Value) -> Value:
-        sys.setrecursionlimit(sys.getrecursionlimit() + HEADROOM)
-        try:
-            return procedure(*arguments)
-        finally:
-            sys.setrecursionlimit(sys.getrecursionlimit() - HEADROOM)
-
-    return higher
-
-
 def signal_error(error: Exception) -> None:
     """Signal a Python error that left Lisp code; it has no place to continue."""
+    if error.__class__ is RecursionError:
+        STACK.make_room()
     failure = error if error.__class__ is Failure else to_failure(error)
     signal(failure, continuable=False)
 
@@ -234,8 +221,10 @@ def run_form(
                 except Exception as error:
                     return signal_error(error)
             except Retry as jump:
-                if jump.target is not form:
+                if jump.args[0] is not form:  # its target, without a call
                     raise
+                if STACK.raised:
+                    STACK.give_back()
             except Abort as jump:
                 if jump.target is not form:
                     raise
@@ -243,6 +232,8 @@ def run_form(
     finally:
         form.live = False
         dynamic.forms = outer
+        if STACK.raised:
+            STACK.give_back()
 
 
 def _guarded(body: Callable[[], Value]) -> Value:
@@ -296,6 +287,8 @@ def run_task(body: Callable[[], Value]) -> Value:
         failure = jump.value
     finally:
         dynamic.forms, dynamic.catches = saved, catches
+        if STACK.raised:
+            STACK.give_back()
     hooks = running.session.hooks
     if hooks.listeners:
         hooks.tell("aborted", None, failure=failure)

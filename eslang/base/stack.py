@@ -1,0 +1,49 @@
+"""The end of the stack, and room beyond it for what answers a failure that came of reaching it.
+
+Recovery procedures, and the cleanups that a jump then passes, run where the
+stack is full. So the limit is raised when a task has reached it, and lowered
+again once the stack has unwound so far that nothing needs the room.
+"""
+
+from __future__ import annotations
+
+import sys
+
+HEADROOM = 20_000  # frames
+MOST = 3  # how often the limit is raised before it is lowered again
+
+
+class Stack:
+    """How often the limit of this process's stack was raised."""
+
+    __slots__ = ("raised",)
+
+    def __init__(self) -> None:
+        self.raised = 0
+
+    def make_room(self) -> None:
+        """Raise the limit."""
+        if self.raised < MOST:
+            sys.setrecursionlimit(sys.getrecursionlimit() + HEADROOM)
+            self.raised += 1
+
+    def give_back(self) -> None:
+        """Lower the limit to where it was, unless the stack is still near it."""
+        limit = sys.getrecursionlimit() - HEADROOM * self.raised
+        if is_below(limit - HEADROOM):
+            sys.setrecursionlimit(limit)
+            self.raised = 0
+
+
+STACK = Stack()
+
+
+def is_below(depth: int) -> bool:
+    """True if the stack is less than DEPTH frames deep."""
+    limit = sys.getrecursionlimit()
+    try:
+        sys.setrecursionlimit(depth)  # Python refuses what is below the depth at hand
+    except RecursionError:
+        return False
+    sys.setrecursionlimit(limit)
+    return True
