@@ -88,8 +88,9 @@ def _type_failure(error: TypeError) -> Failure:
         return type_error(None if "NoneType" in message else String(message.split("'")[1]), "FUNCTION")
     called, mark, rest = message.partition("() ")
     if mark and rest.startswith(("takes", "missing", "got")) and _raised_here(error):
-        name = called.partition("\0")[0].rpartition(".")[2]
-        return Failure(WRONG_NUMBER_OF_ARGUMENTS, Symbol.intern(name, "COMMON-LISP"), _counts(rest))
+        name, compiled, _ = called.partition("\0")
+        symbol = Symbol.intern((name if compiled else name.rpartition(".")[2]).upper(), "COMMON-LISP")
+        return Failure(WRONG_NUMBER_OF_ARGUMENTS, symbol, _counts(rest))
     return python_failure(error)
 
 

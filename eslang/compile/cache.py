@@ -26,6 +26,7 @@ except ImportError:
     from hashlib import blake2b
 
 FORMAT = 1
+MOST = 300  # texts kept
 
 
 class Uncachable(Exception):
@@ -84,6 +85,7 @@ def fetch(key: str) -> list[Kept] | None:
             check, data = file.read(32), file.read()
         if blake2b(data, digest_size=32).digest() != check:
             return None
+        os.utime(os.path.join(where, key))  # it was used: see `forget_old`
         return [Kept(*entry) for entry in marshal.loads(data)]
     except (OSError, ValueError, EOFError, TypeError):
         return None
@@ -102,8 +104,18 @@ def keep(key: str, entries: list[Kept]) -> None:
         with open(temporary, "wb") as file:
             file.write(blake2b(data, digest_size=32).digest() + data)
         os.replace(temporary, kept)
+        forget_old(where)
     except (OSError, ValueError):
         return
+
+
+def forget_old(where: str) -> None:
+    """Remove the texts that were not used for longest, when there are many. Raises OSError."""
+    names = os.listdir(where)
+    if len(names) > MOST:
+        paths = [os.path.join(where, name) for name in names]
+        for path in sorted(paths, key=os.path.getmtime)[: MOST // 2]:
+            os.remove(path)
 
 
 # --- texts ---------------------------------------------------------------------------

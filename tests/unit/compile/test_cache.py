@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from io import StringIO
 from pathlib import Path
@@ -124,3 +125,13 @@ def test_a_text_that_is_wrong_is_not_kept(folder: Path, tmp_path: Path) -> None:
         with pytest.raises(EslError):
             said(path)
     assert len(list(folder.iterdir())) == before
+
+
+def test_a_full_cache_forgets_what_was_not_used_for_longest(tmp_path: Path) -> None:
+    for number in range(cache.MOST + 1):
+        path = tmp_path / str(number)
+        path.write_bytes(b"")
+        os.utime(path, (number, number))
+    cache.forget_old(str(tmp_path))
+    left = sorted(int(path.name) for path in tmp_path.iterdir())
+    assert left == list(range(cache.MOST // 2, cache.MOST + 1))
