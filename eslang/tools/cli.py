@@ -6,6 +6,7 @@ Each command lives in a file of its own and is imported when it is asked for.
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 
@@ -17,6 +18,8 @@ FAILED, USAGE, BUG, INTERRUPTED = 1, 2, 70, 130
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line ARGUMENTS; the exit code. Without them, run that of the process, and end it."""
     prepare_streams()
+    if arguments is None:
+        gc.disable()  # nothing of what starting makes is garbage; `opened` enables it again
     code = guarded(sys.argv[1:] if arguments is None else arguments)
     try:
         sys.stdout.flush()
@@ -82,6 +85,7 @@ def perform(chosen: Chosen) -> int:
         from eslang.tools.repl import repl
 
         return repl(chosen)
+    gc.enable()
     if name == "test":
         from eslang.tools.testing import test
 

@@ -5,6 +5,7 @@ Shared by `esl run` and `esl repl`. What an option may say is checked here.
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from collections.abc import Callable, Iterator
@@ -81,6 +82,9 @@ def opened(chosen: Chosen, listener: Callable[[Any], None] | None) -> Iterator[A
         listeners.append(Tracer(stream))
     try:
         with Interpreter(seed=seed, clock=clock, output=Outlet(sys.stdout), listeners=listeners) as interp:
+            if not gc.isenabled():
+                gc.freeze()  # what is there from the start need never be looked at
+                gc.enable()
             yield interp
     finally:
         if stream is not None:
