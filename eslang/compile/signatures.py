@@ -33,7 +33,7 @@ class Arity(NamedTuple):
             return f"at least {_count(self.least)}"
         if self.least == self.most:
             return _count(self.least) if self.least else "no arguments"
-        return f"{self.least} to {_count(self.most)}"
+        return f"{self.least} to {self.most} arguments"
 
 
 def _count(number: int) -> str:
