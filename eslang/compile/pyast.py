@@ -46,6 +46,13 @@ class Builder:
                 "end_col_offset": span.end_column - 1,
             }
 
+    def start(self) -> dict[str, Any]:
+        """The place of an attribute. Python takes one of several lines to its last, so it gets but one."""
+        at = self.at
+        if at["lineno"] == at["end_lineno"]:
+            return at
+        return {**at, "end_lineno": at["lineno"], "end_col_offset": at["col_offset"] + 1}
+
     # --- expressions -----------------------------------------------------------
 
     def name(self, name: str) -> ast.expr:
@@ -55,7 +62,7 @@ class Builder:
         return ast.Constant(value, **self.at)
 
     def attribute(self, owner: ast.expr, name: str) -> ast.expr:
-        return _deep(ast.Attribute(owner, name, LOAD, **self.at), owner)  # type: ignore[no-any-return]
+        return _deep(ast.Attribute(owner, name, LOAD, **self.start()), owner)  # type: ignore[no-any-return]
 
     def call(self, function: ast.expr, arguments: Iterable[ast.expr]) -> ast.expr:
         parts = list(arguments)
@@ -113,7 +120,7 @@ class Builder:
         return ast.Assign([ast.Tuple(targets, STORE, **self.at)], value, **self.at)
 
     def assign_attribute(self, owner: ast.expr, name: str, value: ast.expr) -> ast.stmt:
-        return ast.Assign([ast.Attribute(owner, name, STORE, **self.at)], value, **self.at)
+        return ast.Assign([ast.Attribute(owner, name, STORE, **self.start())], value, **self.at)
 
     def effect(self, value: ast.expr) -> ast.stmt:
         return ast.Expr(value, **self.at)

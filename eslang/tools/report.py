@@ -87,7 +87,11 @@ def span_of(place: Place) -> Span:
             text = stream.read()
     except OSError:
         text = ""
-    return Span(Source(place.file, text), place.line, place.column, place.end_line, place.end_column)
+    source, end = Source(place.file, text), place.end_column
+    line = source.line(place.line)
+    if place.end_line == place.line and line[place.column - 1 : end - 1] == "(":
+        end = len(line) + 1  # the compiler gives only the start of some forms of many lines
+    return Span(source, place.line, place.column, place.end_line, end)
 
 
 def stack_lines(stack: Sequence[Frame]) -> list[str]:
