@@ -9,7 +9,7 @@ unwound (`signal_error`), so a procedure runs before anything is undone.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 from eslang.base.calls import spread
 from eslang.base.control import Abort, Failed, Retry, Unwind
@@ -45,7 +45,6 @@ HOST_CAUSES = (
     PYTHON_ERROR,
     CONTROL_ERROR,
 )
-JUMP = object()  # what `answer` returns instead of a jump
 
 
 class Clause(NamedTuple):
@@ -72,6 +71,10 @@ class Form:
         self.live = False
 
 
+class Jumps(list[Unwind]):
+    """The jump that is about to be raised."""
+
+
 class Dynamic:
     """What the running task has on its stack for failures to meet."""
 
@@ -81,7 +84,7 @@ class Dynamic:
         self.forms: Form | None = None
         self.answering: list[Failure] = []  # innermost last
         self.catches: list[tuple[Value, Any]] = []  # (tag, token), innermost last
-        self.jumps: list[Unwind] = []  # the one that is about to be raised
+        self.jumps = Jumps()
         self.logical: dict[Value, Value] = {}  # what logic variables are bound to
 
 
@@ -123,8 +126,8 @@ def fail(cause: Value, *arguments: Value) -> Value:
 def signal(failure: Failure, *, continuable: bool) -> Value:
     """Call the active recovery procedures for FAILURE; jump if one of them asks for it."""
     value = answer(failure, continuable)
-    if value is JUMP:
-        raise running.session.dynamic.jumps.pop()
+    if value.__class__ is Jumps:
+        raise value.pop()
     return value
 
 
@@ -132,7 +135,7 @@ def answer(failure: Failure, continuable: bool) -> Value:
     """Call the active recovery procedures for FAILURE, from the innermost form outward.
 
     A procedure that ends with a jump may return it, a Retry or an Abort. It is
-    put on dynamic.jumps, and JUMP returned: the caller is to raise it. The
+    put on dynamic.jumps, and that is returned: the caller is to raise it. The
     fewer frames a jump passes, the faster it is; and no frame that it passes
     may hold it in a variable, or a circle of references would keep both.
     """
@@ -143,7 +146,7 @@ def answer(failure: Failure, continuable: bool) -> Value:
         for index, (cause, limit, place, takes) in enumerate(form.clauses):
             if takes is not None:
                 if takes(failure):
-                    _call(dynamic, form.outer, form.procedures[index], failure, (failure,))
+                    _offer(dynamic, form.outer, form.procedures[index], failure)
                 continue
             used = form.used[index]
             if used == limit or (
@@ -154,38 +157,48 @@ def answer(failure: Failure, continuable: bool) -> Value:
             if session.hooks.listeners:
                 left = None if limit is None else limit - used - 1
                 session.hooks.tell("recovery", as_place(place), failure=failure, left=left)
-            value = _call(dynamic, form, form.procedures[index], failure, failure.arguments)
+            procedure, arguments = form.procedures[index], failure.arguments
+            dynamic.forms = form
+            dynamic.answering.append(failure)
+            try:
+                value = spread(procedure, arguments) if arguments else procedure()
+            except Unwind as jump:
+                jump.failed = True
+                raise
+            finally:
+                dynamic.answering.pop()
+                dynamic.forms = innermost
             if value.__class__ is Retry or value.__class__ is Abort:
                 value.failed = True
                 dynamic.jumps.append(value)
-                return JUMP
+                return dynamic.jumps
             if continuable:
                 return value
             break
         form = form.outer
+    give_up(session, failure, innermost)
+
+
+def give_up(session: Any, failure: Failure, innermost: Form | None) -> NoReturn:
+    """Nothing answers FAILURE: tell its story, and leave the task."""
     failure.story = tell_story(failure, innermost, session.causes)
     if session.hooks.listeners:
         session.hooks.tell("failure", failure.story.place, failure=failure)
     raise Failed(failure)
 
 
-def _call(
-    dynamic: Dynamic, form: Form | None, procedure: Callable[..., Value], failure: Failure, arguments: Any
-) -> Value:
-    """Call a recovery procedure, with the chain set back to FORM."""
+def _offer(dynamic: Dynamic, form: Form | None, procedure: Callable[..., Value], failure: Failure) -> None:
+    """Call what HANDLER-BIND has for FAILURE, with the chain set back to FORM; it declines by returning."""
     saved, dynamic.forms = dynamic.forms, form
     dynamic.answering.append(failure)
     try:
-        value = spread(procedure, arguments) if arguments else procedure()
-    except BaseException as jump:
+        procedure(failure)
+    except Unwind as jump:
+        jump.failed = True
+        raise
+    finally:
         dynamic.answering.pop()
         dynamic.forms = saved
-        if isinstance(jump, Unwind):
-            jump.failed = True
-        raise
-    dynamic.answering.pop()
-    dynamic.forms = saved
-    return value
 
 
 def signal_error(error: Exception) -> None:

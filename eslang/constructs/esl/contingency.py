@@ -64,8 +64,8 @@ def fail(cause: Value, *arguments: Value) -> Value:
     if not isinstance(cause, Symbol):
         raise type_error(cause, "SYMBOL", "fail")
     value = failures.answer(Failure(cause, *arguments), True)
-    if value is failures.JUMP:
-        raise running.session.dynamic.jumps.pop()
+    if value.__class__ is failures.Jumps:
+        raise value.pop()
     return value
 
 
