@@ -7,6 +7,7 @@ be run again from its code alone (cache.py).
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator
 from types import CodeType
 from typing import Any
@@ -15,6 +16,7 @@ from eslang.base.diagnostics import Diagnostic, error_at
 from eslang.base.image import Image
 from eslang.base.lists import Cons
 from eslang.base.spans import Span, Spans
+from eslang.base.stack import is_below
 from eslang.base.symbols import Symbol, Value
 from eslang.compile import backquote, bindings, core_forms, definitions, destructuring, exits, functions
 from eslang.compile.analyser import Analyser, Use
@@ -23,6 +25,7 @@ from eslang.compile.purity import is_pure
 from eslang.compile.scope import LocalMacro, Scope
 from eslang.compile.unit import Unit
 
+ROOM = 50_000  # frames of the stack that must be free where a form is compiled
 ROOMS = (core_forms, bindings, exits, functions, destructuring, definitions, backquote)
 MOST_BLOCKS = 3  # Python blocks that one block or tagbody can become
 PROGN, EVAL_WHEN = (Symbol.intern(name, "COMMON-LISP") for name in ("PROGN", "EVAL-WHEN"))
@@ -53,24 +56,24 @@ class Compiler:
         many: bool = False,
     ) -> Value:
         """Compile FORM and let RUN run its code; the value, or with `many` all the values."""
+        if not is_below(sys.getrecursionlimit() - ROOM):
+            raise RecursionError("no room to compile a form")
         counters = dict(self.image.counters)
         try:
             form = self._expanded(form, spans, span)
             parts = self._parts(form)
-            if parts is not None:
-                self.image.counters = counters
-                result: Value = None
-                for part in parts[:-1]:
-                    self.run(part, spans, spans.of(part) or span, run=run)
-                for part in parts[-1:]:
-                    result = self.run(part, spans, spans.of(part) or span, run=run, many=many)
-                return result
-            code = self._code(form, spans, span, many)
+            code = self._code(form, spans, span, many) if parts is None else None
         except RecursionError:
             raise error_at("nested-too-deep", "this form is nested too deep to compile", span) from None
-        self.codes.append(code)
         self.image.counters = counters  # expanding counts for nothing: a kept text does not expand
-        return run(code)
+        if code is not None:
+            self.codes.append(code)
+            return run(code)
+        result: Value = None
+        for index, part in enumerate(parts or (), start=1):
+            last = parts is not None and index == len(parts)
+            result = self.run(part, spans, spans.of(part) or span, run=run, many=many and last)
+        return result
 
     def pieces(self, form: Value, spans: Spans, span: Span | None) -> Iterator[CodeType]:
         """The code of FORM, piece by piece, to be run or not before the next is compiled."""
