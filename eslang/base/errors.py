@@ -24,6 +24,7 @@ from eslang.base.failure import (
 )
 from eslang.base.image import Cell
 from eslang.base.lists import lisp_list
+from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import String
 
@@ -89,9 +90,17 @@ def _type_failure(error: TypeError) -> Failure:
     called, mark, rest = message.partition("() ")
     if mark and rest.startswith(("takes", "missing", "got")) and _raised_here(error):
         name, compiled, _ = called.partition("\0")
-        symbol = Symbol.intern((name if compiled else name.rpartition(".")[2]).upper(), "COMMON-LISP")
-        return Failure(WRONG_NUMBER_OF_ARGUMENTS, symbol, _counts(rest))
+        called = (name if compiled else name.rpartition(".")[2]).upper()
+        return Failure(WRONG_NUMBER_OF_ARGUMENTS, _named(called), _counts(rest))
     return python_failure(error)
+
+
+def _named(name: str) -> Value:
+    """The symbol that NAME means where the interpreter at work is."""
+    if running.session is None:
+        return Symbol.intern(name, "ESL-USER")
+    symbol, found = running.session.image.package.find(name)
+    return symbol if found else Symbol.intern(name, "ESL-USER")
 
 
 def _operand(message: str) -> Value:

@@ -56,6 +56,11 @@ class Datum:
     def __ge__(self, other: Value) -> bool:
         raise _no_number(self, ">=")
 
+    def __repr__(self) -> str:
+        from eslang.base.printer import prin1  # for people at a Python prompt
+
+        return prin1(self)
+
     __radd__, __rsub__, __rmul__ = __add__, __sub__, __mul__
     __rtruediv__, __rfloordiv__, __rmod__ = __truediv__, __floordiv__, __mod__
 
