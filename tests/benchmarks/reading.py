@@ -7,7 +7,7 @@ grammar would be read if the reader were Lark's own parser.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -51,59 +51,36 @@ def lark_parser(resolve: Any) -> Any:
 
 
 def transformer(resolve: Any) -> Any:
-    """What makes lists and atoms while Lark parses."""
-    from lark import Transformer, v_args
+    """What makes lists and atoms while Lark parses: one function for each alias and terminal."""
+    from lark import Transformer
 
-    class Forms(Transformer):  # type: ignore[misc,type-arg]
-        """One method for each alias of the grammar, and for the terminals that have a value."""
+    known: dict[str, Any] = {}
 
-        def __init__(self) -> None:
-            super().__init__()
-            self.known: dict[str, Any] = {}
+    def atom(token: str) -> Any:
+        if token not in known:
+            known[token] = read_token(str(token), resolve)
+        return known[token]
 
-        def ATOM(self, token: str) -> Any:
-            """A symbol or number."""
-            if token not in self.known:
-                self.known[token] = read_token(str(token), resolve)
-            return self.known[token]
+    def more(parts: Any) -> Any:
+        parts[0].append(parts[1])
+        return parts[0]
 
-        STRING = staticmethod(lambda token: read_string(str(token)))
-        CHARACTER = staticmethod(lambda token: read_character(str(token)))
-        RADIX = staticmethod(lambda token: read_radix(str(token)))
-        UNINTERNED = staticmethod(lambda token: read_uninterned(str(token)))
-        start = staticmethod(lambda parts: parts)
-
-        @v_args(inline=True)
-        def form(self, value: Any) -> Any:
-            return value
-
-        @v_args(inline=True)
-        def list(self, value: Any) -> Any:
-            return value
-
-        def first(self, parts: Any) -> Any:
-            return [parts[1]]
-
-        def next(self, parts: Any) -> Any:
-            parts[0].append(parts[1])
-            return parts[0]
-
-        def empty(self, parts: Any) -> Any:
-            return None
-
-        def proper(self, parts: Any) -> Any:
-            return from_items(parts[0])
-
-        def dotted(self, parts: Any) -> Any:
-            tail = parts[2]
-            for item in reversed(parts[0]):
-                tail = Cons(item, tail)
-            return tail
-
-        def quoted(self, parts: Any) -> Any:
-            return Cons(PREFIXES[parts[0]], Cons(parts[1], None))
-
-        def logical(self, parts: Any) -> Any:
-            return Cons(LOGICAL_BINDING, Cons(parts[0], None))
-
-    return Forms()
+    functions: dict[str, Callable[[Any], Any]] = {
+        "ATOM": atom,
+        "STRING": lambda token: read_string(str(token)),
+        "CHARACTER": lambda token: read_character(str(token)),
+        "RADIX": lambda token: read_radix(str(token)),
+        "UNINTERNED": lambda token: read_uninterned(str(token)),
+        "start": lambda parts: parts,
+        "form": lambda parts: parts[0],
+        "list": lambda parts: parts[0],
+        "first": lambda parts: [parts[1]],
+        "next": more,
+        "empty": lambda parts: None,
+        "proper": lambda parts: from_items(parts[0]),
+        "dotted": lambda parts: from_items(parts[0], parts[2]),
+        "quoted": lambda parts: Cons(PREFIXES[parts[0]], Cons(parts[1], None)),
+        "logical": lambda parts: Cons(LOGICAL_BINDING, Cons(parts[0], None)),
+    }
+    made = {name: staticmethod(function) for name, function in functions.items()}
+    return type("Forms", (Transformer,), made)()
