@@ -1,8 +1,8 @@
 """Ctrl-C and the time limit: requests to an interpreter to end what it runs.
 
 A request only sets the interpreter's flag; it ends the evaluation with its
-cleanups. Whoever asks a second time, and a time limit that the cleanups
-outlast, ends the whole command at once.
+cleanups. Whoever loses patience and asks again, and a time limit that the
+cleanups outlast, ends the whole command at once.
 """
 
 from __future__ import annotations
@@ -20,9 +20,11 @@ GRACE = 2.0  # seconds that cleanups have after the time limit
 class Interrupts:
     """While entered, Ctrl-C and the time limit ask the interpreter to stop; `code` is who asked."""
 
-    def __init__(self, interp: Any, limit: float | None = None) -> None:
+    def __init__(self, interp: Any, limit: float | None = None, patience: int = 1) -> None:
         self.interp = interp
         self.limit = limit
+        self.patience = patience  # requests after which the next one ends the command at once
+        self.asked = 0
         self.code: int | None = None
         self._before: Any = None
 
@@ -46,8 +48,9 @@ class Interrupts:
         self._ask(f"the time limit of {self.limit:g} s is over", TIME_LIMIT)
 
     def _ask(self, reason: str, code: int) -> None:
-        if self.code is not None:
-            leave_at_once(self.code)
+        if self.asked >= self.patience:
+            leave_at_once(self.code or code)
+        self.asked += 1
         self.code = code
         self.interp.interrupt(reason, code)
 

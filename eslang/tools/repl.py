@@ -20,7 +20,8 @@ from eslang.tools.options import Chosen
 from eslang.tools.run import load, outcome
 from eslang.tools.tokens import Balance
 
-WRONG, INTERRUPTED = 65, 130
+WRONG = 65
+PATIENCE = 3  # Ctrl-C may be pressed so often before it ends the session
 
 WELCOME = """\
 eslang {version}. Type a form; :help tells what else can be said, :quit or Ctrl-D ends.
@@ -47,9 +48,11 @@ def repl(chosen: Chosen) -> int:
             if code:
                 sys.stderr.write(f"esl: `{path}` was not loaded to its end\n")
         try:
-            if sys.stdin.isatty() and sys.stdout.isatty() and os.environ.get("TERM") != "dumb":
+            if not sys.stdin.isatty():
+                return from_pipe(interp, sys.stdin)
+            if sys.stdout.isatty() and os.environ.get("TERM") != "dumb":
                 return at_terminal(interp)
-            return from_pipe(interp, sys.stdin)
+            return at_plain_terminal(interp, sys.stdin)
         except Leave as leave:
             return leave.code
 
@@ -76,15 +79,13 @@ def opened_conversation(interp: Any, *, echo: bool) -> Conversation:
 
 
 def from_pipe(interp: Any, stream: TextIO) -> int:
-    """Answer what STREAM (or a terminal without a screen) says; 65 if some of it was no right program."""
-    conversation = opened_conversation(interp, echo=not stream.isatty())
+    """Answer what STREAM says; 65 if some of it was no right program, 130 if it was interrupted."""
+    conversation = opened_conversation(interp, echo=True)
     pending, balance = "", Balance()
     conversation.prompt()
     while line := stream.readline():
         pending += line
         balance.feed(line)
-        if not conversation.echo:
-            conversation.typed()
         if balance.surely_open:
             continue
         with Interrupts(interp) as interrupts:
@@ -99,6 +100,30 @@ def from_pipe(interp: Any, stream: TextIO) -> int:
         interp.output.write("\n")
     interp.output.flush()
     return WRONG if conversation.mistakes else 0
+
+
+def at_plain_terminal(interp: Any, stream: TextIO) -> int:
+    """Answer what is typed at a terminal without a screen, until Ctrl-D or :quit."""
+    conversation = opened_conversation(interp, echo=False)
+    conversation.remarks = True
+    pending = ""
+    while True:
+        if not pending:
+            conversation.prompt()
+            interp.output.flush()
+        try:
+            line = stream.readline()
+        except KeyboardInterrupt:
+            pending = ""
+            continue
+        conversation.typed()
+        with Interrupts(interp, patience=PATIENCE) as interrupts:
+            pending = conversation.hear(pending + line, last=not line)
+        if interrupts.code is not None:
+            pending = ""
+        if not line:
+            interp.output.write("\n")
+            return 0
 
 
 def at_terminal(interp: Any) -> int:
@@ -119,5 +144,5 @@ def at_terminal(interp: Any) -> int:
             continue
         except EOFError:
             return 0
-        with Interrupts(interp):
+        with Interrupts(interp, patience=PATIENCE):
             conversation.hear(text + "\n", last=True)

@@ -177,5 +177,13 @@ def test_a_terminal_without_a_screen_has_a_prompt_too(tmp_path: Path) -> None:
         terminal.until(r"\? ")
         terminal.type("(list 1\r2)\r")
         assert terminal.until(r"\(1 2\)\n\? ") == "(list 1\n2)\n(1 2)\n? "
+        terminal.type("(progn (princ :here) (terpri) (loop)) :never\r")
+        terminal.until(r"HERE\n")
+        terminal.type("\x03")
+        assert "NEVER" not in terminal.until(r"Aborted\n\? ")
+        terminal.type("(dropped\r\x03")
+        terminal.until(r"\? ")
+        terminal.type("(list 3)\r")
+        terminal.until(r"\n\(3\)\n\? ")
         terminal.type("\x04")
         assert terminal.wait() == 0
