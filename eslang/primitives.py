@@ -32,7 +32,8 @@ def make_primitive(function: Any, name: str | None, signature: str | None) -> De
     shown = signature.replace(name, name.rpartition(":")[2], 1)
     definition = Definition("function", name.upper(), ESL, shown, None)
     definition.documentation = function.__doc__ or ""
-    definition.implementation = _wrapped(function, name.upper().rpartition(":")[2], arity(signature), _positional(signature))
+    called = name.upper().rpartition(":")[2]
+    definition.implementation = _wrapped(function, called, arity(signature), _positional(signature))
     return definition
 
 
