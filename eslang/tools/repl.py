@@ -114,6 +114,8 @@ def at_plain_terminal(interp: Any, stream: TextIO) -> int:
         try:
             line = stream.readline()
         except KeyboardInterrupt:
+            conversation.typed()
+            interp.output.write("\n")
             pending = ""
             continue
         conversation.typed()
