@@ -108,21 +108,17 @@ def at_plain_terminal(interp: Any, stream: TextIO) -> int:
     conversation.remarks = True
     pending = ""
     while True:
-        if not pending:
-            conversation.prompt()
-            interp.output.flush()
         try:
+            if not pending:
+                conversation.prompt()
+                interp.output.flush()
             line = stream.readline()
+            conversation.typed()
+            pending = answered(conversation, pending + line, last=not line)
         except KeyboardInterrupt:
             conversation.typed()
             interp.output.write("\n")
-            pending = ""
-            continue
-        conversation.typed()
-        with Interrupts(interp, patience=PATIENCE) as interrupts:
-            pending = conversation.hear(pending + line, last=not line)
-        if interrupts.code is not None:
-            pending = ""
+            pending, line = "", "?"
         if not line:
             interp.output.write("\n")
             return 0
@@ -138,13 +134,18 @@ def at_terminal(interp: Any) -> int:
     editor = Editor(interp, PROMPT)
     interp.output.write(WELCOME.format(version=__version__))
     while True:
-        interp.output.fresh_line()
-        interp.output.flush()
         try:
-            text = editor.read()
+            interp.output.fresh_line()
+            interp.output.flush()
+            answered(conversation, editor.read() + "\n", last=True)
         except KeyboardInterrupt:
             continue
         except EOFError:
             return 0
-        with Interrupts(interp, patience=PATIENCE):
-            conversation.hear(text + "\n", last=True)
+
+
+def answered(conversation: Conversation, text: str, *, last: bool) -> str:
+    """Answer TEXT; what is left of it unfinished, and nothing if Ctrl-C was pressed."""
+    with Interrupts(conversation.interp, patience=PATIENCE) as interrupts:
+        rest = conversation.hear(text, last=last)
+    return rest if interrupts.code is None else ""
