@@ -95,6 +95,7 @@ class Interpreter:
         with self.at_work():
             self._install()
         self._library = False
+        self.image.sealed = True
         self.hooks.listeners.extend(listeners)
 
     # --- what is there from the start ------------------------------------------
@@ -287,7 +288,7 @@ class Interpreter:
             symbol = self.symbol(definition.name)
             if symbol is None or symbol.package == "COMMON-LISP":
                 raise error_at(
-                    "redefined-special-form", f"`{definition.name.lower()}` is Common Lisp's", None
+                    "redefined-standard-name", f"`{definition.name.lower()}` is Common Lisp's", None
                 )
             cell = self.image.cell(symbol)
             definition.package = symbol.package or ""

@@ -57,6 +57,7 @@ class Image:
     def __init__(self) -> None:
         self.cells: dict[Symbol | None, Cell] = {}
         self.packages: dict[str, Package] = {}
+        self.sealed = False  # the library is there: nobody redefines the standard's operators any more
         self.special_forms: dict[Symbol, Value] = {}  # registry.Definition of each
         self.counters: dict[str, int] = {}  # GENSYM and its like: deterministic per interpreter
         self._define_packages()
@@ -107,6 +108,13 @@ class Image:
             if isinstance(symbol, Keyword):
                 cell.value, cell.constant = symbol, True
         return cell
+
+    def is_fixed(self, symbol: Symbol) -> bool:
+        """True if SYMBOL names a function or macro of Common Lisp, which programs may not redefine."""
+        if not self.sealed or symbol.package != "COMMON-LISP":
+            return False
+        cell = self.cell(symbol)
+        return cell.macro is not None or hasattr(cell, "function")
 
     def count(self, counter: str) -> int:
         """The next number of COUNTER, from 1."""

@@ -26,8 +26,11 @@ from eslang.compile.scope import SPECIAL, Scope, SymbolMacro
 
 
 def is_special(analyser: Analyser, symbol: Symbol, specials: set[Symbol]) -> bool:
-    """True if binding SYMBOL here is a dynamic binding."""
-    return symbol in specials or analyser.image.cell(symbol).special
+    """True if binding SYMBOL here is a dynamic binding; a constant cannot be bound."""
+    cell = analyser.image.cell(symbol)
+    if cell.constant:
+        analyser.fail("constant-assignment", f"`{shown(symbol)}` is a constant and cannot be bound")
+    return symbol in specials or cell.special
 
 
 def binding_parts(analyser: Analyser, binding: Value, what: str) -> tuple[Symbol, Cons]:

@@ -42,6 +42,13 @@ def _name(analyser: Analyser, form: Cons, what: str) -> Symbol:
             f"`{shown(name)}` is a special form and cannot be redefined",
             analyser.spans.element(form.cdr),
         )
+    if what != "variable" and analyser.image.is_fixed(name):
+        analyser.fail(
+            "redefined-standard-name",
+            f"`{shown(name)}` is an operator of Common Lisp and cannot be redefined",
+            analyser.spans.element(form.cdr),
+            hint="choose another name, or shadow this one in a package of your own",
+        )
     return name
 
 

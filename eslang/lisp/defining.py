@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from eslang.base.failure import simple_error
-from eslang.base.image import Cell
+from eslang.base.image import Cell, Image
 from eslang.base.lists import items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, Value
@@ -32,10 +32,18 @@ def _describe(cell: Cell, kind: str, implementation: Any, signature: Value, doc:
     running.session.defined(symbol)
 
 
+def _free_cell(name: Symbol) -> Cell:
+    """The cell of NAME, which may be defined as an operator."""
+    image: Image = running.session.image
+    if image.is_fixed(name):
+        raise simple_error("an operator of Common Lisp cannot be redefined:", name)
+    return image.cell(name)
+
+
 @function("(%define-function name function signature documentation where)")
 def define_function(name: Symbol, made: Value, signature: Value, doc: Value, where: Value) -> Value:
     """Make MADE the global function NAME."""
-    cell = running.session.image.cell(name)
+    cell = _free_cell(name)
     cell.macro = None
     cell.function = made
     _describe(cell, "function", made, signature, doc, where)
@@ -52,7 +60,7 @@ def define_setf_function(name: Symbol, made: Value, signature: Value, doc: Value
 @function("(%define-macro name expander signature documentation where)")
 def define_macro(name: Symbol, expander: Value, signature: Value, doc: Value, where: Value) -> Value:
     """Make EXPANDER the macro function of NAME."""
-    cell = running.session.image.cell(name)
+    cell = _free_cell(name)
     if hasattr(cell, "function"):
         del cell.function
     cell.macro = expander

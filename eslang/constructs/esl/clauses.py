@@ -59,6 +59,14 @@ class RecoveryClause:
                 clause,
                 hint="write a keyword, such as `:widget-broken`",
             )
+        if head is QUOTE and self.arguments.__class__ is Cons and self.arguments.cdr is None:
+            refuse(
+                environment,
+                "malformed-clause",
+                "the cause of a clause is not evaluated, and so not quoted",
+                clause,
+                hint=f"write `{shown(self.arguments.car)}`",
+            )
         self.cause = head
         self.limit: Value = 1
         self.body = clause.cdr
@@ -67,7 +75,10 @@ class RecoveryClause:
     def options(self) -> None:
         """Take the option :retries from the head of the body."""
         body = self.body
-        if body.__class__ is not Cons or not isinstance(body.car, Keyword) or body.cdr is None:
+        if body.__class__ is not Cons or not isinstance(body.car, Keyword):
+            return
+        if body.cdr is None:
+            self.option_alone(body)
             return
         if body.car is not RETRIES:
             close = nearest(body.car.name, ["RETRIES"])
@@ -95,11 +106,25 @@ class RecoveryClause:
                 hint="write a whole number, or `:infinite`",
             )
 
+    def option_alone(self, body: Cons) -> None:
+        """Refuse :retries with nothing behind it."""
+        if body.car is RETRIES:
+            refuse(
+                self.environment,
+                "malformed-clause",
+                "`:retries` has no number behind it",
+                body,
+                hint="write a whole number, or `:infinite`",
+            )
+
     def procedure(self, this: Symbol) -> Value:
         """The function of the clause's arguments; (retry) in it means the form THIS."""
         declare = lisp_list(lisp_list(THIS_FORM, this))
         body = Cons(SYMBOL_MACROLET, Cons(declare, self.with_jump_as_value(this)))
-        return lisp_list(LAMBDA, self.lambda_list(), body)
+        made = lisp_list(LAMBDA, self.lambda_list(), body)
+        if self.environment is not None:
+            self.environment.analyser.spans.copy_from(made, self.clause)
+        return made
 
     def with_jump_as_value(self, this: Symbol) -> Value:
         """The body; a (retry) or (abort) at its end is returned to the runtime, which jumps faster."""
@@ -126,12 +151,17 @@ class RecoveryClause:
         names: list[Value] = []
         rest = self.arguments
         while rest.__class__ is Cons:
-            if not isinstance(rest.car, Symbol) or isinstance(rest.car, Keyword):
+            marker = isinstance(rest.car, Symbol) and rest.car.name.startswith("&")
+            known = rest.car is OPTIONAL or rest.car is REST
+            if not isinstance(rest.car, Symbol) or isinstance(rest.car, Keyword) or (marker and not known):
                 refuse(
                     self.environment,
                     "malformed-clause",
                     f"`{shown(rest.car)}` cannot name an argument of a failure",
                     rest,
+                    hint="the arguments come in order; write `&rest name` for all the others"
+                    if marker
+                    else None,
                 )
             names.append(rest.car)
             rest = rest.cdr
