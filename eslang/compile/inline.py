@@ -102,9 +102,10 @@ def _abs(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
 
 
 def _extreme(name: str, operator: type[ast.cmpop]) -> None:
-    @inline(name, 2, 2, NUMBER, simple=True)
+    @inline(name, 2, 2, NUMBER)
     def emit(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
-        return e.choose(e.compare(arguments[0], operator(), arguments[1]), *arguments)
+        (left, again), (right, once_more) = _twice(e, arguments[0]), _twice(e, arguments[1])
+        return e.choose(e.compare(left, operator(), right), again, once_more)
 
 
 _extreme("MAX", ast.GtE)
@@ -134,23 +135,32 @@ for _name, _operator in (("<", ast.Lt), (">", ast.Gt), ("<=", ast.LtE), (">=", a
     _order(_name, _operator)
 
 
+def _twice(e: Emitter, expression: ast.expr) -> tuple[ast.expr, ast.expr]:
+    """EXPRESSION for two uses, of which the first comes first and in any case."""
+    if is_simple(expression):
+        return expression, expression
+    name = e.temporary()
+    return e.name_it(name, expression), e.name(name)
+
+
 def _equal_numbers(e: Emitter, left: ast.expr, right: ast.expr, nodes: list[Node]) -> ast.expr:
     if all(is_number(node) for node in nodes):
         return e.compare(left, ast.Eq(), right)
-    return e.both(ast.And(), [e.compare(left, ast.LtE(), right), e.compare(left, ast.GtE(), right)])
+    (left, again), (right, once_more) = _twice(e, left), _twice(e, right)
+    return e.both(ast.And(), [e.compare(left, ast.LtE(), right), e.compare(again, ast.GtE(), once_more)])
 
 
-@inline("=", 2, 2, TRUTH, simple=True)
+@inline("=", 2, 2, TRUTH)
 def _number_equal(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return _equal_numbers(e, arguments[0], arguments[1], nodes)
 
 
-@inline("/=", 2, 2, TRUTH, simple=True)
+@inline("/=", 2, 2, TRUTH)
 def _number_unequal(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return e.unary(ast.Not(), _equal_numbers(e, arguments[0], arguments[1], nodes))
 
 
-@inline("ZEROP", 1, 1, TRUTH, simple=True)
+@inline("ZEROP", 1, 1, TRUTH)
 def _zerop(e: Emitter, arguments: list[ast.expr], nodes: list[Node]) -> ast.expr:
     return _equal_numbers(e, arguments[0], e.constant(0), nodes)
 
