@@ -12,10 +12,14 @@ from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.compile.analyser import Analyser
 from eslang.compile.core import (
+    Block,
     Const,
     If,
+    Let,
+    Local,
     Node,
     Or,
+    ReturnFrom,
     Seq,
     SetGlobal,
     SetLocal,
@@ -23,11 +27,14 @@ from eslang.compile.core import (
 )
 from eslang.compile.registry import special_form
 from eslang.compile.scope import SPECIAL, Scope, SymbolMacro
+from eslang.compile.signatures import count_arguments
 
 DECLARE = Symbol.intern("DECLARE", "COMMON-LISP")
 SPECIAL_NAME = Symbol.intern("SPECIAL", "COMMON-LISP")
 IGNORABLE = {Symbol.intern(name, "COMMON-LISP") for name in ("IGNORE", "IGNORABLE")}
 SETF = Symbol.intern("SETF", "COMMON-LISP")
+TEST = Symbol.uninterned("TEST")
+LONG = 30  # clauses, or forms of AND and OR; of more, Python's own compiler is not to make a nest
 OTHERWISE = (T, Symbol.intern("OTHERWISE", "COMMON-LISP"))
 
 
@@ -72,7 +79,25 @@ def cond(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 
     Returns: the value of the clause's last form; of the test, if there is none.
     """
+    is_long = (count_arguments(form) or 0) > LONG
+    scope.procedure.nesting += 3 * is_long
+    parts = _clauses(analyser, form, scope)
+    scope.procedure.nesting -= 3 * is_long
+    if is_long:
+        return _one_by_one(analyser, parts, scope)
     result: Node = Const(analyser.span, None)
+    for test, body in reversed(parts):
+        if body is None:
+            result = Or(test.span, [test, result])
+        elif isinstance(test, Const) and test.value is not None:
+            result = body
+        else:
+            result = If(test.span, test, body, result)
+    return result
+
+
+def _clauses(analyser: Analyser, form: Cons, scope: Scope) -> list[tuple[Node, Node | None]]:
+    """The test and the body of each clause of COND; None for a body that is not there."""
     parts: list[tuple[Node, Node | None]] = []
     around = analyser.span
     rest = form.cdr
@@ -87,22 +112,41 @@ def cond(analyser: Analyser, form: Cons, scope: Scope) -> Node:
         parts.append((test, analyser.body(clause.cdr, scope) if clause.cdr is not None else None))
         analyser.span = around
         rest = rest.cdr
-    for test, body in reversed(parts):
+    return parts
+
+
+def _one_by_one(analyser: Analyser, parts: list[tuple[Node, Node | None]], scope: Scope) -> Node:
+    """A long COND: one clause after the other, each of which leaves the whole."""
+    target = analyser.exit(None, scope)
+    target.jumps = len(parts)
+    nothing = Const(analyser.span, None)
+    nodes: list[Node] = []
+    for test, body in parts:
         if body is None:
-            result = Or(test.span, [test, result])
-        elif isinstance(test, Const) and test.value is not None:
-            result = body
+            value = analyser.unnamed_variable(TEST, scope)
+            value.mentioned = True
+            found = Local(test.span, value)
+            leave = ReturnFrom(test.span, target, found, local=True)
+            nodes.append(Let(test.span, [(value, test)], If(test.span, found, leave, nothing)))
         else:
-            result = If(test.span, test, body, result)
-    return result
+            leave = ReturnFrom(test.span, target, body, local=True)
+            nodes.append(If(test.span, test, leave, nothing))
+    return Block(analyser.span, target, Seq(analyser.span, [*nodes, nothing]))
 
 
 @special_form("(and &rest forms)")
 def and_(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     """Run FORMS in order until one is false; give the values of the last."""
-    nodes = analyser.nodes(form.cdr, scope)
-    result: Node = nodes.pop() if nodes else Const(analyser.span, T)
-    for node in reversed(nodes):
+    return _conjunction(analyser, analyser.nodes(form.cdr, scope) or [Const(analyser.span, T)])
+
+
+def _conjunction(analyser: Analyser, nodes: list[Node]) -> Node:
+    """The nodes of AND in a nest, or, if there are many, in a nest of nests."""
+    if len(nodes) > LONG:
+        nodes = [_conjunction(analyser, nodes[i : i + LONG]) for i in range(0, len(nodes), LONG)]
+        return _conjunction(analyser, nodes)
+    result = nodes[-1]
+    for node in reversed(nodes[:-1]):
         result = If(analyser.span, node, result, Const(analyser.span, None))
     return result
 
@@ -110,10 +154,15 @@ def and_(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 @special_form("(or &rest forms)")
 def or_(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     """Run FORMS in order until one is true; give its value."""
-    nodes = analyser.nodes(form.cdr, scope)
-    if len(nodes) < 2:
-        return nodes[0] if nodes else Const(analyser.span, None)
-    return Or(analyser.span, nodes)
+    return _disjunction(analyser, analyser.nodes(form.cdr, scope) or [Const(analyser.span, None)])
+
+
+def _disjunction(analyser: Analyser, nodes: list[Node]) -> Node:
+    """The nodes of OR, or, if there are many, of ORs in an OR."""
+    if len(nodes) > LONG:
+        nodes = [_disjunction(analyser, nodes[i : i + LONG]) for i in range(0, len(nodes), LONG)]
+        return _disjunction(analyser, nodes)
+    return nodes[0] if len(nodes) == 1 else Or(analyser.span, nodes)
 
 
 @special_form("(setq &rest pairs)")

@@ -22,7 +22,7 @@ from eslang.compile.core import Exit, Lambda, Node, Procedure
 from eslang.compile.emit import Destination
 from eslang.compile.emit_functions import Emitter
 
-DEEPEST = 400  # nested control structures, in statements: Python's compiler walks them on the C stack
+DEEPEST = 1000  # nested control structures, in statements: Python's compiler walks them on the C stack
 
 
 class Unit(Code):
