@@ -2,6 +2,7 @@
 # make test      the whole check: ruff, mypy, every test, the wheel and the editable install
 # make fast      the inner loop: the same without what is slow, under 20 seconds
 # make test-all  the suite under every supported Python that this machine has
+# make bench     measure, beside hand-written Python and other libraries; one table
 # make clean     remove what the other targets made
 
 SHELL := /bin/sh
@@ -18,7 +19,7 @@ PYTHON ?= $(shell for candidate in $(SUPPORTED:%=python%) python3 python; do \
 # Where a Python may be: by its name on the PATH, or among pyenv's versions.
 EVERY_PYTHON = $(foreach version,$(SUPPORTED),python$(version) $(wildcard $(HOME)/.pyenv/versions/$(version).*/bin/python))
 
-.PHONY: run test fast test-all check clean
+.PHONY: run test fast test-all check bench clean
 
 run: $(VENV)/.ready
 	@$(BIN)/esl run plans/esl/01-widget.esl
@@ -46,6 +47,10 @@ test-all:
 	done; \
 	echo "Pythons tried:$$seen"; \
 	if [ -n "$$failed" ]; then echo "failed under:$$failed"; exit 1; fi
+
+bench: $(VENV)/.ready-dev
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
+	-@$(BIN)/python -m tests.benchmarks
 
 $(VENV)/.ready: pyproject.toml
 	@test -n "$(PYTHON)" || { echo "eslang needs Python 3.11 or newer, with its venv module"; exit 1; }

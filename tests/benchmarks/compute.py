@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -20,6 +20,7 @@ CALLS: list[tuple[str, str, tuple[Any, ...]]] = [
     ("string work", "string-work", (TEXT, 10)),
     ("list work", "list-work", (1000, 10)),
 ]
+ON_PAIRS = ("queens", "list-work")  # hand-written once more with the data structure that Lisp uses
 DEEP = 100_000
 
 
@@ -29,14 +30,15 @@ def works() -> Iterator[Work]:
     agent.load(PROGRAMS / "compute.esl")
     python, hy = python_programs(), hy_programs()
     for name, function, arguments in CALLS:
-        yield Work(
-            name,
-            ours(agent, function, arguments),
-            [
-                Peer("hand-written Python", theirs(python, function, arguments), 1.5),
-                Peer("Hy", theirs(hy, function, arguments) if hy else None, 1.3),
-            ],
-        )
+        peers = [
+            Peer("hand-written Python", theirs(python, function, arguments), 1.5),
+            Peer("Hy", theirs(hy, function, arguments) if hy else None, 1.3),
+        ]
+        if function in ON_PAIRS:
+            on_pairs = [None if argument == [] else argument for argument in arguments]
+            run = theirs(python, f"{function}_on_pairs", on_pairs)
+            peers.append(Peer("hand-written Python, linked lists", run, None))
+        yield Work(name, ours(agent, function, arguments), peers)
     yield Work(
         f"recursion {DEEP:,} deep",
         ours(agent, "deep", (DEEP,)),
@@ -49,7 +51,7 @@ def ours(agent: Interpreter, function: str, arguments: tuple[Any, ...]) -> Any:
     return lambda: agent.call(function, *arguments)
 
 
-def theirs(module: Any, function: str, arguments: tuple[Any, ...]) -> Any:
+def theirs(module: Any, function: str, arguments: Sequence[Any]) -> Any:
     """A call of the same in a Python module."""
     made = getattr(module, function.replace("-", "_"))
     return lambda: made(*arguments)

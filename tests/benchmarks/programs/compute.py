@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 
 def fib(n: int) -> int:
     if n < 2:
@@ -65,6 +68,113 @@ def list_work(size: int, rounds: int) -> int:
         total += sorted(numbers)[0]
         for number, square in pairs:
             total += square - number * number
+    return total
+
+
+class Pair:
+    """A cons, as a Python programmer would make it."""
+
+    __slots__ = ("head", "tail")
+
+    def __init__(self, head: Any, tail: Any) -> None:
+        self.head = head
+        self.tail = tail
+
+
+def is_safe_on_pairs(row: int, placed: Any) -> bool:
+    distance = 1
+    while placed is not None:
+        other = placed.head
+        if other == row or abs(other - row) == distance:
+            return False
+        distance += 1
+        placed = placed.tail
+    return True
+
+
+def queens_on_pairs(size: int, placed: Any, left: int) -> int:
+    if left == 0:
+        return 1
+    count = 0
+    for row in range(size):
+        if is_safe_on_pairs(row, placed):
+            count += queens_on_pairs(size, Pair(row, placed), left - 1)
+    return count
+
+
+def mapped(function: Callable[[Any], Any], pairs: Any) -> Any:
+    first = last = Pair(None, None)
+    while pairs is not None:
+        last.tail = last = Pair(function(pairs.head), None)
+        pairs = pairs.tail
+    return first.tail
+
+
+def zipped(left: Any, right: Any) -> Any:
+    first = last = Pair(None, None)
+    while left is not None:
+        last.tail = last = Pair(Pair(left.head, right.head), None)
+        left, right = left.tail, right.tail
+    return first.tail
+
+
+def filtered(function: Callable[[Any], bool], pairs: Any) -> Any:
+    first = last = Pair(None, None)
+    while pairs is not None:
+        if function(pairs.head):
+            last.tail = last = Pair(pairs.head, None)
+        pairs = pairs.tail
+    return first.tail
+
+
+def reversed_pairs(pairs: Any) -> Any:
+    result = None
+    while pairs is not None:
+        result = Pair(pairs.head, result)
+        pairs = pairs.tail
+    return result
+
+
+def joined(pairs: Any, tail: Any) -> Any:
+    first = last = Pair(None, None)
+    while pairs is not None:
+        last.tail = last = Pair(pairs.head, None)
+        pairs = pairs.tail
+    last.tail = tail
+    return first.tail
+
+
+def as_list(pairs: Any) -> list[Any]:
+    result = []
+    while pairs is not None:
+        result.append(pairs.head)
+        pairs = pairs.tail
+    return result
+
+
+def as_pairs(values: list[Any]) -> Any:
+    result = None
+    for value in reversed(values):
+        result = Pair(value, result)
+    return result
+
+
+def list_work_on_pairs(size: int, rounds: int) -> int:
+    total = 0
+    for _ in range(rounds):
+        numbers = as_pairs([i * 7919 % 1009 for i in range(size)])
+        squares = mapped(lambda x: x * x, numbers)
+        odd = filtered(lambda x: x % 2 == 1, squares)
+        pairs = zipped(numbers, squares)
+        rest = odd
+        while rest is not None:
+            total += rest.head
+            rest = rest.tail
+        total += len(as_list(joined(odd, reversed_pairs(numbers))))
+        total += as_pairs(sorted(as_list(numbers))).head
+        while pairs is not None:
+            total += pairs.head.tail - pairs.head.head * pairs.head.head
+            pairs = pairs.tail
     return total
 
 
