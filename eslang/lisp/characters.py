@@ -39,6 +39,20 @@ def has_case(char: str) -> bool:
     return len(lower) == 1 and len(upper) == 1 and lower != upper and char in (lower, upper)
 
 
+class _Other(dict[str, Character]):
+    """The other letter of each that has case, or the character itself; each found once."""
+
+    def __init__(self, change: Callable[[str], str]) -> None:
+        super().__init__()
+        self.change = change
+
+    def __missing__(self, char: str) -> Character:
+        return self.setdefault(char, character(self.change(char) if has_case(char) else char))
+
+
+_UPPER, _LOWER = _Other(str.upper), _Other(str.lower)
+
+
 @function("(character designator)")
 def to_character(designator: Value) -> Value:
     """Return the character that DESIGNATOR is, or is a string or symbol of."""
@@ -78,15 +92,13 @@ def code_char(code: Value) -> Value:
 @function("(char-upcase character)")
 def char_upcase(char: Value) -> Value:
     """Return the upper-case letter of CHARACTER, or CHARACTER itself."""
-    text = check_character(char, "char-upcase")
-    return character(text.upper()) if has_case(text) else char
+    return _UPPER[check_character(char, "char-upcase")]
 
 
 @function("(char-downcase character)")
 def char_downcase(char: Value) -> Value:
     """Return the lower-case letter of CHARACTER, or CHARACTER itself."""
-    text = check_character(char, "char-downcase")
-    return character(text.lower()) if has_case(text) else char
+    return _LOWER[check_character(char, "char-downcase")]
 
 
 @function("(alpha-char-p character)")

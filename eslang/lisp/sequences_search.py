@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from eslang.base.symbols import Value
+from eslang.base.text import Character, String
 from eslang.compile.registry import function
 from eslang.lisp.arguments import take_keys
 from eslang.lisp.matching import Choice, agreement, judge_if, judge_item, keyed
@@ -69,6 +70,9 @@ def find_if_not(predicate: Value, sequence: Value, *options: Value) -> Value:
 @function("(position item sequence &key test test-not key from-end start end)")
 def position(item: Value, sequence: Value, *options: Value) -> Value:
     """Return where in SEQUENCE ITEM first matches an element, or NIL."""
+    if not options and item.__class__ is Character and sequence.__class__ is String:
+        at = sequence.text.find(item.char)
+        return at if at >= 0 else None
     return _place(sequence, by_item(item, options, _TESTS))[1]
 
 
@@ -97,6 +101,8 @@ def _count(sequence: Value, chosen: Chosen) -> int:
 @function("(count item sequence &key test test-not key from-end start end)")
 def count(item: Value, sequence: Value, *options: Value) -> Value:
     """Return how many elements of SEQUENCE ITEM matches."""
+    if not options and item.__class__ is Character and sequence.__class__ is String:
+        return sequence.text.count(item.char)
     return _count(sequence, by_item(item, options, _TESTS))
 
 
@@ -118,6 +124,9 @@ _TWO_RANGES = ("TEST", "TEST-NOT", "KEY", "FROM-END", "START1", "END1", "START2"
 @function("(search sequence-1 sequence-2 &key test test-not key from-end start1 end1 start2 end2)")
 def search(first: Value, second: Value, *options: Value) -> Value:
     """Return where SEQUENCE-1 first (or last) stands in SEQUENCE-2, or NIL."""
+    if not options and first.__class__ is String and second.__class__ is String:
+        at = second.text.find(first.text)
+        return at if at >= 0 else None
     test, test_not, key, from_end, start1, end1, start2, end2 = take_keys(options, _TWO_RANGES)
     agrees = agreement(test, test_not)
     wanted = keyed(section(first, start1, end1), key)
