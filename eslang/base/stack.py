@@ -10,32 +10,40 @@ from __future__ import annotations
 import sys
 
 HEADROOM = 20_000  # frames
+SHARE = 20  # the part of the limit that must be free before it is lowered again
 MOST = 3  # how often the limit is raised before it is lowered again
 
 
 class Stack:
-    """How often the limit of this process's stack was raised."""
+    """The limit of this process's stack, and how often it was raised."""
 
-    __slots__ = ("raised",)
+    __slots__ = ("limit", "raised")
 
     def __init__(self) -> None:
         self.raised = 0
+        self.limit = 0  # as it was before
 
     def make_room(self) -> None:
         """Raise the limit."""
+        if not self.raised:
+            self.limit = sys.getrecursionlimit()
         if self.raised < MOST:
             sys.setrecursionlimit(sys.getrecursionlimit() + HEADROOM)
             self.raised += 1
 
     def give_back(self) -> None:
         """Lower the limit to where it was, unless the stack is still near it."""
-        limit = sys.getrecursionlimit() - HEADROOM * self.raised
-        if is_below(limit - HEADROOM):
-            sys.setrecursionlimit(limit)
+        if is_below(self.limit - self.limit // SHARE):
+            sys.setrecursionlimit(self.limit)
             self.raised = 0
 
 
 STACK = Stack()
+
+
+def is_nearly_full() -> bool:
+    """True if most of the stack is used."""
+    return not is_below(sys.getrecursionlimit() * 7 // 8)
 
 
 def is_below(depth: int) -> bool:

@@ -7,7 +7,6 @@ be run again from its code alone (cache.py).
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterator
 from types import CodeType
 from typing import Any
@@ -16,7 +15,7 @@ from eslang.base.diagnostics import Diagnostic, error_at
 from eslang.base.image import Image
 from eslang.base.lists import Cons
 from eslang.base.spans import Span, Spans
-from eslang.base.stack import is_below
+from eslang.base.stack import is_nearly_full
 from eslang.base.symbols import Symbol, Value
 from eslang.compile import backquote, bindings, core_forms, definitions, destructuring, exits, functions
 from eslang.compile.analyser import Analyser, Use
@@ -25,7 +24,6 @@ from eslang.compile.purity import is_pure
 from eslang.compile.scope import LocalMacro, Scope
 from eslang.compile.unit import Unit
 
-ROOM = 50_000  # frames of the stack that must be free where a form is compiled
 ROOMS = (core_forms, bindings, exits, functions, destructuring, definitions, backquote)
 MOST_BLOCKS = 3  # Python blocks that one block or tagbody can become
 PROGN, EVAL_WHEN = (Symbol.intern(name, "COMMON-LISP") for name in ("PROGN", "EVAL-WHEN"))
@@ -56,7 +54,7 @@ class Compiler:
         many: bool = False,
     ) -> Value:
         """Compile FORM and let RUN run its code; the value, or with `many` all the values."""
-        if not is_below(sys.getrecursionlimit() - ROOM):
+        if is_nearly_full():
             raise RecursionError("no room to compile a form")
         counters = dict(self.image.counters)
         try:

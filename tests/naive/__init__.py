@@ -1,1 +1,1 @@
-"""A naive evaluator of programs, for comparison with compiled code."""
+"""A naive evaluator of programs, which compiled code is compared with."""

@@ -141,7 +141,7 @@ class Naive:
             return [self.specials[symbol.name]]
         frame = env.find("variable", symbol)
         if frame is None:
-            return self.signal(Keyword("UNBOUND-VARIABLE"), [symbol])  # type: ignore[no-any-return]
+            return self.signal(Keyword("UNBOUND-VARIABLE"), [symbol])
         return self.eval(frame.meaning.expand, env) if isinstance(frame.meaning, Macro) else [frame.meaning]
 
     def assign(self, symbol: Symbol, value: Value, env: Environment) -> None:
@@ -155,9 +155,13 @@ class Naive:
             assert frame is not None
             frame.meaning = value
 
-    def bind(self, pairs: list[tuple[Symbol, Value]], env: Environment, run: Callable[[Environment], Any]) -> Any:
+    def bind(
+        self, pairs: list[tuple[Symbol, Value]], env: Environment, run: Callable[[Environment], Any]
+    ) -> Any:
         """What RUN gives where variables are bound all at once, special ones dynamically."""
-        saved = [(symbol.name, self.specials[symbol.name]) for symbol, _ in pairs if symbol.name in self.specials]
+        saved = [
+            (symbol.name, self.specials[symbol.name]) for symbol, _ in pairs if symbol.name in self.specials
+        ]
         for symbol, value in pairs:
             if symbol.name in self.specials:
                 self.specials[symbol.name] = value
@@ -188,9 +192,9 @@ class Naive:
         try:
             if not callable(function):
                 raise HostError("UNDEFINED-FUNCTION" if isinstance(function, Symbol) else "TYPE-ERROR")
-            return function(*arguments)  # type: ignore[no-any-return]
+            return function(*arguments)
         except HostError as error:
-            return self.signal(Keyword(str(error)), [])  # type: ignore[no-any-return]
+            return self.signal(Keyword(str(error)), [])
 
     def lambda_(self, lst: Value, forms: list[Value], env: Environment) -> Callable[..., list[Value]]:
         """The function of a lambda list and a body."""
@@ -198,7 +202,9 @@ class Naive:
 
         def call(*given: Value) -> list[Value]:
             check_count(parameters, len(given))
-            return self.enter(parameters, list(given), list(given), env, lambda inner: self.body(forms, inner))
+            return self.enter(
+                parameters, list(given), list(given), env, lambda inner: self.body(forms, inner)
+            )
 
         return call
 
@@ -207,20 +213,22 @@ class Naive:
     ) -> list[Value]:
         """Bind PARAMETERS one after the other, so that defaults see what is before them; then RUN."""
         if not parameters:
-            return run(env)  # type: ignore[no-any-return]
+            return run(env)
         section, name, default, supplied = parameters[0]
         value = MISSING
         if section == "&REST":
             value = from_items(rest)
         elif section == "&KEY":
             keys = rest
-            value = next((v for k, v in zip(keys[::2], keys[1::2], strict=False) if k is Keyword(name.name)), MISSING)
+            value = next(
+                (v for k, v in zip(keys[::2], keys[1::2], strict=False) if k is Keyword(name.name)), MISSING
+            )
         elif section != "&AUX" and rest:
             value, rest = rest[0], rest[1:]
         pairs = [(name, self.one(default, env) if value is MISSING else value)]
         if supplied is not None:
             pairs.append((supplied, truth(value is not MISSING)))
-        return self.bind(pairs, env, lambda inner: self.enter(parameters[1:], rest, keys, inner, run))  # type: ignore[no-any-return]
+        return self.bind(pairs, env, lambda inner: self.enter(parameters[1:], rest, keys, inner, run))
 
     # --- failures --------------------------------------------------------------
 
@@ -264,7 +272,7 @@ class Naive:
     def leave(self, place: Place, values: list[Value]) -> list[Value]:
         """Jump to PLACE."""
         if not place.live:
-            return self.signal(CONTROL_ERROR, [])  # type: ignore[no-any-return]
+            return self.signal(CONTROL_ERROR, [])
         raise Jump(place, values)
 
 
@@ -295,3 +303,13 @@ def answers(wanted: Value, cause: Value) -> bool:
 FORMS: dict[str, Callable[..., list[Value]]] = {}
 HIGHER: dict[str, Callable[..., list[Value]]] = {}
 FUNCTIONS: dict[str, Callable[..., Value]] = {}
+
+
+def form(name: str) -> Callable[[Any], Any]:
+    """Let a Python function be what the forms called NAME do."""
+
+    def register(function: Any) -> Any:
+        FORMS[name] = function
+        return function
+
+    return register
