@@ -2,7 +2,7 @@
 
 The machine is shared and changes its speed, so a time means nothing by itself.
 In each round every contender of a work runs once, for about as long as the
-others; what is told is the ratio of the medians of one run.
+others; what is told is the median of the rounds' ratios.
 """
 
 from __future__ import annotations
@@ -38,18 +38,14 @@ class Work(NamedTuple):
 
 
 class Row(NamedTuple):
-    """One line of the table: medians in seconds, for the work done once."""
+    """One line of the table: medians over the rounds, the times in seconds for the work done once."""
 
     work: str
     peer: str
     ours: float
     theirs: float | None
+    ratio: float | None  # how many times as long as the peer eslang takes, within one round
     limit: float | None
-
-    @property
-    def ratio(self) -> float | None:
-        """How many times as long as the peer eslang takes."""
-        return None if self.theirs is None else self.ours / self.theirs
 
     @property
     def verdict(self) -> str:
@@ -75,9 +71,17 @@ def measure(work: Work, rounds: int) -> list[Row]:
     for _ in range(rounds):
         for number, (run, per) in enumerate(runs):
             samples[number].append(sample(run, counts[number]) / per)
-    ours, *theirs = (median(times) for times in samples)
-    times = dict(zip((peer.name for peer in present), theirs, strict=True))
-    return [Row(work.name, peer.name, ours, times.get(peer.name), peer.limit) for peer in work.peers]
+    ours = samples[0]
+    times = dict(zip((peer.name for peer in present), samples[1:], strict=True))
+    return [row(work.name, peer, ours, times.get(peer.name)) for peer in work.peers]
+
+
+def row(work: str, peer: Peer, ours: list[float], theirs: list[float] | None) -> Row:
+    """What the samples of one pair of contenders come to."""
+    if theirs is None:
+        return Row(work, peer.name, median(ours), None, None, peer.limit)
+    ratio = median([one / other for one, other in zip(ours, theirs, strict=True)])
+    return Row(work, peer.name, median(ours), median(theirs), ratio, peer.limit)
 
 
 def repetitions(run: Run) -> int:
