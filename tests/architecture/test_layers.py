@@ -24,6 +24,7 @@ FLOORS = {
 # A deferred import that closes a circle, and why it may.
 CIRCLES = {
     ("eslang.base.symbols", "eslang.base.failure"): "a datum that refuses arithmetic says so as a failure",
+    ("eslang.base.symbols", "eslang.base.printer"): "a datum shows itself to Python as it prints",
     ("eslang.base.lists", "eslang.base.printer"): "a list's text is how it prints",
     ("eslang.base.failure", "eslang.base.failure_text"): "a failure's text is how it prints",
     ("eslang.base.diagnostics", "eslang.base.render"): "an error's text is its layout",
