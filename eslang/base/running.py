@@ -27,7 +27,7 @@ def to_function(designator: Value) -> Any:
     """The function that DESIGNATOR (a function, or a symbol that names one) designates."""
     if designator.__class__ is FunctionType:
         return designator
-    if isinstance(designator, Symbol):
+    if isinstance(designator, Symbol) or designator is None:  # NIL, too, is a symbol
         try:
             return running.session.image.cell(designator).function
         except AttributeError:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, NoReturn
 
 from eslang.base.calls import spread
-from eslang.base.control import Abort, Failed, Retry, Unwind
+from eslang.base.control import Abort, Failed, Retry, Stop, Unwind
 from eslang.base.errors import to_failure
 from eslang.base.failure import (
     CONTROL_ERROR,
@@ -284,6 +284,9 @@ def run_with_cleanup(body: Callable[[], Value], cleanup: Callable[[], Value]) ->
             ticks.held += 1
             try:
                 _guarded(cleanup)
+            except Unwind:
+                if jump.__class__ is not Stop:  # what cleanup does cannot keep a run that is to end
+                    raise
             finally:
                 ticks.held -= 1
         raise

@@ -49,16 +49,18 @@ class Interrupts:
 
     def _ask(self, reason: str, code: int) -> None:
         if self.asked >= self.patience:
-            leave_at_once(self.code or code)
+            leave_at_once(reason, self.code or code)
         self.asked += 1
         self.code = code
         self.interp.interrupt(reason, code)
 
 
-def leave_at_once(code: int) -> None:
+def leave_at_once(reason: str, code: int) -> None:
     """End the command without any cleanup, because it was asked twice."""
-    try:
-        sys.stdout.flush()
-    except Exception:
-        code = code  # what could not be written is lost
+    for stream, text in ((sys.stdout, ""), (sys.stderr, f"esl: {reason}\n")):
+        try:
+            stream.write(text)
+            stream.flush()
+        except Exception:
+            code = code  # what could not be written is lost
     os._exit(code)
