@@ -72,6 +72,12 @@ def bindings_of(analyser: Analyser, lst: Value, what: str) -> list[tuple[Symbol,
     return result
 
 
+def given(variable: Variable, value: Node) -> Variable:
+    """VARIABLE, which gets VALUE where it is bound, and nothing but what SETQ gives it later."""
+    variable.given = [value]
+    return variable
+
+
 @special_form("(let bindings &body forms)")
 def let(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     """Run FORMS with BINDINGS, all computed before any is bound."""
@@ -85,7 +91,7 @@ def let(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     any_dynamic = any(is_special(analyser, symbol, specials) for symbol, _ in bindings)
     for (symbol, _), value in zip(bindings, values, strict=True):
         if not is_special(analyser, symbol, specials):
-            lexical.append((analyser.variable(symbol, inner), value))
+            lexical.append((given(analyser.variable(symbol, inner), value), value))
         elif len(bindings) == 1:
             dynamic.append((symbol, value))
         else:  # computed in its turn, bound after all the others are computed
@@ -131,7 +137,8 @@ def sequential(
             scope.procedure.nesting += 2
             wrappers.append(Bind(analyser.span, [(symbol, value)], value))
         else:
-            wrappers.append(Let(analyser.span, [(analyser.variable(symbol, scope), value)], value))
+            variable = given(analyser.variable(symbol, scope), value)
+            wrappers.append(Let(analyser.span, [(variable, value)], value))
     scope = scope.inner()
     declare_specials(analyser, declarations, scope)
     body = analyser.body(forms, scope)

@@ -37,6 +37,7 @@ class Variable:
     captured: bool = False  # mentioned by an inner procedure
     mentioned: bool = False
     ignorable: bool = False
+    given: list[Node] | None = None  # all that it is ever bound or set to; None: not known
 
     @property
     def fresh(self) -> bool:

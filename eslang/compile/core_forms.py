@@ -201,6 +201,8 @@ def assignment(analyser: Analyser, symbol: Symbol, holder: Cons, scope: Scope) -
     value = analyser.nodes(Cons(holder.car, None), scope)[0]
     if isinstance(found, Variable):
         found.assigned = True
+        if found.given is not None:
+            found.given.append(value)
         return SetLocal(analyser.span, found, value)
     if analyser.image.cell(symbol).constant:
         analyser.fail("constant-assignment", f"`{shown(symbol)}` is a constant and cannot be set")

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from eslang.base.symbols import Symbol
 from eslang.base.text import Character
-from eslang.compile.core import Const, Inline, Node
+from eslang.compile.core import Const, Inline, Local, Node
 from eslang.compile.pyast import is_simple
 
 if TYPE_CHECKING:
@@ -53,7 +53,10 @@ def inline(
 
 
 def is_number(node: Node) -> bool:
-    """True if NODE surely gives a number."""
+    """True if NODE surely gives a number; a variable does if it is never given anything else."""
+    if isinstance(node, Local):
+        given = node.variable.given
+        return given is not None and all(not isinstance(value, Local) and is_number(value) for value in given)
     if isinstance(node, Const):
         return node.value.__class__ in (int, float)
     return isinstance(node, Inline) and INLINE[node.operator].kind == NUMBER
