@@ -88,7 +88,7 @@ class Interpreter:
             "%bind-all": self.bindings.bind_all,
             "%unbind": self.bindings.unbind,
             "%signal-error": signal_error,
-            "%ticks": self.ticks.ticks,
+            "%ticks": self.ticks,
         }
         self.texts = Texts(self)
         sys.setrecursionlimit(max(sys.getrecursionlimit(), DEEPEST))

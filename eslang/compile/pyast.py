@@ -148,9 +148,11 @@ class Builder:
         return ast.While(self.constant(True), body, [], **self.at)
 
     def ticking(self, body: list[ast.stmt]) -> ast.stmt:
-        """An endless loop whose rounds count as steps: `for _ in %ticks():`."""
+        """An endless loop whose rounds count as steps: `for _ in %ticks.source:`."""
         target = ast.Name("%round", STORE, **self.at)
-        return ast.For(target, self.call_support("%ticks"), body or [self.pass_()], [], **self.at)
+        return ast.For(
+            target, self.attribute(self.name("%ticks"), "source"), body or [self.pass_()], [], **self.at
+        )
 
     def try_(
         self, body: list[ast.stmt], handlers: list[ast.ExceptHandler], final: list[ast.stmt] | None = None

@@ -25,7 +25,7 @@ class Ticks:
     def __init__(self) -> None:
         self.pending: Stop | None = None
         self.held = 0  # cleanups that are under way: a stop waits for them
-        self._source: Iterator[None] = self._make()
+        self.source: Iterator[None] = self._make()  # what compiled loops iterate over
 
     def _make(self) -> Iterator[None]:
         return chain.from_iterable(iter(self._slice, None))
@@ -34,22 +34,18 @@ class Ticks:
         self.safepoint()
         return repeat(None, SLICE)
 
-    def ticks(self) -> Iterator[None]:
-        """What a compiled loop iterates over."""
-        return self._source
-
     def safepoint(self) -> None:
         """Obey a pending stop."""
         if self.pending is not None and not self.held:
             stop, self.pending = self.pending, None
             sys.setprofile(None)
-            self._source = self._make()
+            self.source = self._make()
             raise stop
 
     def stop(self, stop: Stop) -> None:
         """Stop what runs, soon; safe to call from a signal handler."""
         self.pending = stop
-        self._source = self._make()
+        self.source = self._make()
         sys.setprofile(self._at_call)
 
     def forget(self) -> None:

@@ -29,14 +29,14 @@ def interp(written: StringIO) -> Any:
 
 def test_ticks_never_end_and_pass_a_safepoint_in_every_slice() -> None:
     ticks = Ticks()
-    source = ticks.ticks()
+    source = ticks.source
     for _ in range(2 * SLICE):
         next(source)
     ticks.stop(Stop("enough", 7))
     try:
         with pytest.raises(Stop):
             for _ in range(2 * SLICE):
-                next(ticks.ticks())
+                next(ticks.source)
     finally:
         ticks.forget()
 
