@@ -29,7 +29,7 @@ def expected(plan: Path) -> str:
 
 
 @every_plan
-@pytest.mark.parametrize("seed", [0, 1, 1996])
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 1996))])
 def test_a_plan_prints_what_stands_beside_it(
     plan: Path, seed: int, capsys: pytest.CaptureFixture[str]
 ) -> None:
