@@ -24,7 +24,7 @@ def is_integer(value: Value) -> bool:
 
 def check_number(value: Value, name: str) -> Value:
     """VALUE, if it is a number; else a type error of the function NAME."""
-    if is_number(value):
+    if value.__class__ is int or is_number(value):
         return value
     raise type_error(value, "NUMBER", name)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from eslang.base.failure import type_error
-from eslang.base.symbols import Value, truth
+from eslang.base.symbols import T, Value, truth
 from eslang.compile.registry import function, variable
 from eslang.lisp.numbers import check_integer
 
@@ -20,13 +20,13 @@ _MOST_BITS = 1 << 33  # a shift beyond this asks for more memory than there is
 @function("(evenp integer)")
 def evenp(integer: Value) -> Value:
     """Return T if INTEGER is even."""
-    return truth(check_integer(integer, "evenp") % 2 == 0)
+    return None if check_integer(integer, "evenp") % 2 else T
 
 
 @function("(oddp integer)")
 def oddp(integer: Value) -> Value:
     """Return T if INTEGER is odd."""
-    return truth(check_integer(integer, "oddp") % 2 == 1)
+    return T if check_integer(integer, "oddp") % 2 else None
 
 
 @function("(gcd &rest integers)")
