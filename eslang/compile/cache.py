@@ -27,6 +27,7 @@ except ImportError:
 
 FORMAT = 1
 MOST = 300  # texts kept
+DEEPEST = 60  # functions inside one another
 
 
 class Uncachable(Exception):
@@ -124,6 +125,8 @@ def forget_old(where: str) -> None:
 def write_down(compiler: Any) -> Kept | None:
     """What is to be kept of a text that COMPILER has compiled whole; None if it cannot be."""
     unit = compiler.unit
+    if any(nesting(lambda_.procedure) > DEEPEST for lambda_ in unit.lambdas):
+        return None  # each variant holds those inside it: that grows too fast
     try:
         fresh: dict[int, int] = {}
         cells = [(name, _encode(symbol, fresh)) for symbol, name in unit.cells.items()]
@@ -136,6 +139,15 @@ def write_down(compiler: Any) -> Kept | None:
         return Kept(compiler.codes, cells, constants, marshal.dumps(variants))
     except (Uncachable, RecursionError, ValueError):
         return None
+
+
+def nesting(procedure: Any) -> int:
+    """How many functions stand around PROCEDURE; beyond DEEPEST they are not counted on."""
+    depth = 0
+    while procedure is not None and depth <= DEEPEST:
+        procedure = procedure.parent
+        depth += 1
+    return depth
 
 
 def take_up(kept: Kept, image: Image, support: dict[str, Any]) -> Code:

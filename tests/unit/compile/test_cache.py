@@ -136,3 +136,11 @@ def test_a_full_cache_forgets_what_was_not_used_for_longest(tmp_path: Path) -> N
     cache.forget_old(str(tmp_path))
     left = sorted(int(path.name) for path in tmp_path.iterdir())
     assert left == list(range(cache.MOST // 2, cache.MOST + 1))
+
+
+def test_functions_nested_very_deep_are_run_and_not_kept(folder: Path, tmp_path: Path) -> None:
+    """Each variant of a function holds those inside it: keeping them all would never end."""
+    before = set(folder.iterdir())
+    path = plan(tmp_path, f"(print {'(funcall (lambda () ' * 300}7{'))' * 300})")
+    assert [said(path).strip(), said(path).strip()] == ["7", "7"]
+    assert set(folder.iterdir()) == before
