@@ -52,6 +52,18 @@ class Abort(Unwind):
     """Return from the form that the recovery procedure belongs to."""
 
 
+class RetryNow(Retry):
+    """What a recovery procedure returns whose last form is (retry): the jump, made in answer to a failure."""
+
+    failed = True
+
+
+class AbortNow(Abort):
+    """The same for (abort)."""
+
+    failed = True
+
+
 class Failed(Unwind):
     """A failure that nothing answered, on its way out of its task."""
 

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, NoReturn
 
 from eslang.base.calls import spread
-from eslang.base.control import Abort, Failed, Retry, Stop, Unwind
+from eslang.base.control import Abort, AbortNow, Failed, Retry, RetryNow, Stop, Unwind
 from eslang.base.errors import to_failure
 from eslang.base.failure import (
     CONTROL_ERROR,
@@ -134,7 +134,7 @@ def signal(failure: Failure, *, continuable: bool) -> Value:
 def answer(failure: Failure, continuable: bool) -> Value:
     """Call the active recovery procedures for FAILURE, from the innermost form outward.
 
-    A procedure that ends with a jump may return it, a Retry or an Abort. It is
+    A procedure that ends with a jump may return it, a RetryNow or AbortNow. It is
     put on dynamic.jumps, and that is returned: the caller is to raise it. The
     fewer frames a jump passes, the faster it is; and no frame that it passes
     may hold it in a variable, or a circle of references would keep both.
@@ -168,8 +168,7 @@ def answer(failure: Failure, continuable: bool) -> Value:
             finally:
                 dynamic.answering.pop()
                 dynamic.forms = innermost
-            if value.__class__ is Retry or value.__class__ is Abort:
-                value.failed = True
+            if value.__class__ is RetryNow or value.__class__ is AbortNow:
                 dynamic.jumps.append(value)
                 return dynamic.jumps
             if continuable:

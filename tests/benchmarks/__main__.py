@@ -17,7 +17,7 @@ HEAD = ("work", "against", "eslang", "the other", "ratio", "at most", "")
 
 def main(words: list[str]) -> int:
     """Measure what WORDS ask for; 1 if a limit was missed."""
-    rounds = int(words.pop(0)) if words and words[0].isdigit() else 15
+    rounds = int(words.pop(0)) if words and words[0].isdigit() else 61
     sys.setrecursionlimit(500_000)  # for hand-written Python that recurses deeply, too
     rows: list[Row] = []
     for name in words or ROOMS:

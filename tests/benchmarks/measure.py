@@ -13,7 +13,7 @@ from statistics import median
 from time import perf_counter
 from typing import NamedTuple
 
-LEAST = 0.02  # seconds that one sample takes, at least
+LEAST = 0.005  # seconds that one sample takes, at least
 
 Run = Callable[[], object]
 

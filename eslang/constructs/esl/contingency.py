@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from eslang.base.control import Abort, Retry
+from eslang.base.control import AbortNow, RetryNow
 from eslang.base.failure import Failure, control_error, type_error
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.many import many_of
@@ -227,8 +227,8 @@ def call_with_recovery_procedures(
 
 function("(%retry form)", ESL)(failures.retry)
 function("(%abort form result)", ESL)(failures.abort)
-function("(%retry-as-value form)", ESL)(Retry)
-function("(%abort-as-value form result)", ESL)(Abort)
+function("(%retry-as-value form)", ESL)(RetryNow)
+function("(%abort-as-value form result)", ESL)(AbortNow)
 
 
 # --- inside a recovery procedure -----------------------------------------------------
