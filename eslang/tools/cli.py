@@ -124,7 +124,13 @@ def unknown_command(name: str) -> str:
 
 
 def prepare_streams() -> None:
-    """Let output appear line by line, and no character be too strange to be written."""
+    """Let output appear line by line, and no character be too strange to be written.
+
+    A stream that was closed from the start is replaced by one that takes all and gives nothing.
+    """
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))
     for stream in (sys.stdout, sys.stderr):
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:

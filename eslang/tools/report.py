@@ -68,9 +68,23 @@ def near_name(failure: Failure, interp: Any) -> str | None:
     symbol = failure.values[0]
     if not isinstance(symbol, Symbol):
         return None
+    package = package_with(symbol, interp)
+    if package is not None:
+        return (
+            f"let package `{(symbol.package or '').lower()}` use `{package}`, where this name means something"
+        )
     names = [name.lower() for name, _ in known_names(interp)]
     near = nearest(symbol.name.lower(), names)
     return f"the nearest name that is known is `{near}`" if near else None
+
+
+def package_with(symbol: Symbol, interp: Any) -> str | None:
+    """The package of the languages in which the name of SYMBOL, which is of another, means something."""
+    for name in ("COMMON-LISP", "ESL", "SCS"):
+        package = interp.image.packages[name]
+        if symbol.name in package.external and package.find(symbol.name)[0] is not symbol:
+            return name.lower()
+    return None
 
 
 def remark(failure: Failure, interp: Any) -> str:

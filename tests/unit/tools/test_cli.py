@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
-from unit.tools.command import Ended, call, environment, run, start
+from unit.tools.command import PYTHON, Ended, call, environment, run, start
 
 from eslang import __version__
 
@@ -235,3 +235,16 @@ def test_a_plan_that_is_compiled_already_starts_with_few_imports(tmp_path: Path)
             env=environment(XDG_CACHE_HOME=str(tmp_path)),
         )
     assert done.stdout == "1\n[]\n"
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&-"])
+def test_a_stream_that_was_closed_from_the_start_is_no_trouble(closed: str) -> None:
+    command = ["sh", "-c", f'exec "$0" "$@" {closed}', *PYTHON, "run", "-e", "(print 1)"]
+    ended = subprocess.run(command, env=environment(), capture_output=True, text=True, timeout=30)
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert ended.stdout.split() == ([] if closed == ">&-" else ["1", "1"])
+
+
+def test_a_name_that_a_package_does_not_use_is_found_in_another(tmp_path: Path) -> None:
+    path = written(tmp_path, "(defpackage :lab (:use :cl))\n(in-package :lab)\n(fail :stuck)\n")
+    assert "let package `lab` use `esl`, where this name means something" in run("run", path).err
