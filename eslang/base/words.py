@@ -38,6 +38,15 @@ CLASSES = """
 
 DOCUMENTATION_KINDS = "COMPILER-MACRO STANDARD STRUCTURE VARIABLE"
 
+# Macros of the standard that are not offered. What stands in them is no list of arguments, so that
+# a call of one is compiled without them: it fails with :undefined-function, and names the operator.
+_MACROS = """
+    CALL-METHOD DEFCLASS DEFGENERIC DEFINE-METHOD-COMBINATION DEFMETHOD PPRINT-LOGICAL-BLOCK WITH-ACCESSORS
+    WITH-CONDITION-RESTARTS WITH-OPEN-FILE WITH-OPEN-STREAM WITH-PACKAGE-ITERATOR WITH-SLOTS
+    WITH-STANDARD-IO-SYNTAX
+"""
+MACROS_NOT_OFFERED = frozenset(_MACROS.split())
+
 _GROUPS = (LAMBDA_LIST_KEYWORDS, DECLARATIONS, TYPES, CLASSES, DOCUMENTATION_KINDS)
 
 STANDARD_WORDS = tuple(word for group in _GROUPS for word in group.split())

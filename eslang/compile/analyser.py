@@ -17,6 +17,7 @@ from eslang.base.shown import shown
 from eslang.base.spans import Span, Spans
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.base.text import String
+from eslang.base.words import MACROS_NOT_OFFERED
 from eslang.compile.core import (
     Call,
     Const,
@@ -209,7 +210,8 @@ class Analyser:
 
     def call(self, operator: Symbol, form: Cons, scope: Scope) -> Node:
         """The node of a call of a global function."""
-        arguments = self.nodes(form.cdr, scope)
+        offered = operator.name not in MACROS_NOT_OFFERED or hasattr(self.image.cell(operator), "function")
+        arguments = self.nodes(form.cdr, scope) if offered else []
         if operator.package == "COMMON-LISP":
             inline = INLINE.get(operator.name)
             if inline is not None and inline.takes(len(arguments)):
