@@ -10,7 +10,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable, Sequence
 from statistics import median
-from time import perf_counter
+from time import process_time
 from typing import NamedTuple
 
 LEAST = 0.005  # seconds that one sample takes, at least
@@ -34,7 +34,7 @@ class Work(NamedTuple):
     ours: Run
     peers: Sequence[Peer]
     per: int = 1  # how often one call of `ours` does the work
-    same: bool = True  # whether all must come to the same result
+    clock: Callable[[], float] = process_time  # what other processes take does not count
 
 
 class Row(NamedTuple):
@@ -64,13 +64,13 @@ def measure(work: Work, rounds: int) -> list[Row]:
     present = [peer for peer in work.peers if peer.run is not None]
     runs = [(work.ours, work.per), *((peer.run, peer.per) for peer in present if peer.run is not None)]
     results = [run() for run, _ in runs]
-    if work.same and any(result != results[0] for result in results):
+    if any(result != results[0] for result in results):
         raise AssertionError(f"{work.name}: the contenders disagree: {results}")
-    counts = [repetitions(run) for run, _ in runs]
+    counts = [repetitions(run, work.clock) for run, _ in runs]
     samples: list[list[float]] = [[] for _ in runs]
     for _ in range(rounds):
         for number, (run, per) in enumerate(runs):
-            samples[number].append(sample(run, counts[number]) / per)
+            samples[number].append(sample(run, counts[number], work.clock) / per)
     ours = samples[0]
     times = dict(zip((peer.name for peer in present), samples[1:], strict=True))
     return [row(work.name, peer, ours, times.get(peer.name)) for peer in work.peers]
@@ -84,22 +84,22 @@ def row(work: str, peer: Peer, ours: list[float], theirs: list[float] | None) ->
     return Row(work, peer.name, median(ours), median(theirs), ratio, peer.limit)
 
 
-def repetitions(run: Run) -> int:
+def repetitions(run: Run, clock: Callable[[], float]) -> int:
     """How often RUN is to be called for a sample that is long enough."""
     count = 1
-    while sample(run, count) * count < LEAST and count < 1 << 20:
+    while sample(run, count, clock) * count < LEAST and count < 1 << 20:
         count *= 2
     return count
 
 
-def sample(run: Run, count: int) -> float:
+def sample(run: Run, count: int, clock: Callable[[], float]) -> float:
     """The seconds that one of COUNT calls of RUN takes."""
     gc.collect()
     gc.disable()
     try:
-        begin = perf_counter()
+        begin = clock()
         for _ in range(count):
             run()
-        return (perf_counter() - begin) / count
+        return (clock() - begin) / count
     finally:
         gc.enable()
