@@ -14,9 +14,9 @@ from eslang.reader.tables import WRONG, tables
 
 Place = tuple[int, int]  # line, column
 
-_STRING = re.compile(r'"(?:[^"\\\0]|\\[^\0])*+')
-_NAME = re.compile(r"(?:[^\s()\"';`,|\\\0]|\\[^\0]|\|(?:[^|\\\0]|\\[^\0])*\|)*+")
-_BARRED = re.compile(r"\|(?:[^|\\\0]|\\[^\0])*+")
+_STRING = re.compile(r'"(?:[^"\\\0]|\\[^\0])*')
+_NAME = re.compile(r"(?:[^\s()\"';`,|\\\0]|\\[^\0]|\|(?:[^|\\\0]|\\[^\0])*\|)*")
+_BARRED = re.compile(r"\|(?:[^|\\\0]|\\[^\0])*")
 _DISPATCH = re.compile(r"#[0-9]*")
 _COMMENT_EDGE = re.compile(r"#\||\|#|\0")
 
