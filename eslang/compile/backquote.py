@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from eslang.base.lists import Cons, lisp_list
+from eslang.base.lists import Cons, items, lisp_list
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import Vector
 from eslang.compile.analyser import Analyser
@@ -15,9 +15,8 @@ def _cl(name: str) -> Symbol:
     return Symbol.intern(name, "COMMON-LISP")
 
 
-QUASIQUOTE, UNQUOTE, SPLICING, QUOTE, CONS, APPEND, LIST = map(
-    _cl, ("QUASIQUOTE", "UNQUOTE", "UNQUOTE-SPLICING", "QUOTE", "CONS", "APPEND", "LIST")
-)
+OPERATORS = QUASIQUOTE, UNQUOTE, SPLICING = tuple(map(_cl, ("QUASIQUOTE", "UNQUOTE", "UNQUOTE-SPLICING")))
+QUOTE, CONS, APPEND = map(_cl, ("QUOTE", "CONS", "APPEND"))
 TO_VECTOR = _cl("%LIST-TO-VECTOR")
 
 
@@ -28,18 +27,20 @@ def quasiquote(analyser: Analyser, form: Cons, scope: Scope) -> Node:
 
 
 def _is(form: Value, operator: Symbol) -> bool:
-    return form.__class__ is Cons and form.car is operator and form.cdr.__class__ is Cons
+    if form.__class__ is not Cons or form.car is not operator:
+        return False
+    return form.cdr is None or form.cdr.__class__ is Cons
 
 
 def _template(analyser: Analyser, form: Value, depth: int) -> Value:
     """A form that builds the template FORM, which stands under DEPTH backquotes."""
-    if _is(form, UNQUOTE):
-        if depth == 1:
-            return form.cdr.car
-        return lisp_list(LIST, lisp_list(QUOTE, UNQUOTE), _template(analyser, form.cdr.car, depth - 1))
+    if _is(form, UNQUOTE) and depth == 1 and form.cdr is not None:
+        return form.cdr.car
+    if depth > 1 and (_is(form, UNQUOTE) or _is(form, SPLICING)):
+        return _inner(analyser, form, depth - 1)
     if _is(form, QUASIQUOTE):
-        return lisp_list(LIST, lisp_list(QUOTE, QUASIQUOTE), _template(analyser, form.cdr.car, depth + 1))
-    if _is(form, SPLICING) and depth == 1:
+        return _inner(analyser, form, depth + 1)
+    if _is(form, SPLICING):
         analyser.fail("misplaced-splice", "`,@` has no list around it to splice into")
     if form.__class__ is Vector:
         elements: Value = None
@@ -51,11 +52,19 @@ def _template(analyser: Analyser, form: Value, depth: int) -> Value:
     return lisp_list(QUOTE, form)
 
 
+def _inner(analyser: Analyser, form: Cons, depth: int) -> Value:
+    """A form that builds FORM, a backquote or comma inside a template, with DEPTH for what is in it.
+
+    A `,@` right behind an inner comma gives that comma several forms, or none.
+    """
+    return lisp_list(CONS, lisp_list(QUOTE, form.car), _elements(analyser, form.cdr, depth))
+
+
 def _elements(analyser: Analyser, form: Value, depth: int) -> Value:
     """A form that builds the list FORM, element by element; spliced where it says so."""
     holders: list[Cons] = []
     rest = form
-    while rest.__class__ is Cons and not (holders and (_is(rest, UNQUOTE) or _is(rest, QUASIQUOTE))):
+    while rest.__class__ is Cons and not (holders and any(_is(rest, operator) for operator in OPERATORS)):
         holders.append(rest)
         rest = rest.cdr
     if not _mentions(form):
@@ -63,11 +72,12 @@ def _elements(analyser: Analyser, form: Value, depth: int) -> Value:
     result = _template(analyser, rest, depth) if rest is not None else None
     for holder in reversed(holders):
         element = holder.car
-        if _is(element, SPLICING) and depth == 1:
-            result = element.cdr.car if result is None else lisp_list(APPEND, element.cdr.car, result)
-        elif _is(element, SPLICING):
-            inner = _template(analyser, element.cdr.car, depth - 1)
-            result = lisp_list(CONS, lisp_list(LIST, lisp_list(QUOTE, SPLICING), inner), result)
+        if depth == 1 and (_is(element, SPLICING) or _is(element, UNQUOTE)):
+            for value in reversed(list(items(element.cdr))):
+                if _is(element, UNQUOTE):
+                    result = lisp_list(CONS, value, result)
+                else:
+                    result = value if result is None else lisp_list(APPEND, value, result)
         else:
             result = lisp_list(CONS, _template(analyser, element, depth), result)
     return result

@@ -44,6 +44,7 @@ class Emitter(StatementEmitter):
     def definition(self, name: str, node: Lambda, *, many: bool = False) -> ast.stmt:
         """The Python definition of a function."""
         inner = Emitter(self.unit, node.procedure, many=many)
+        inner.nesting = self.nesting
         inner.at = self.at
         inner.move(node.span)
         return inner.function(name, node)

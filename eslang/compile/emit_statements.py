@@ -28,13 +28,11 @@ class StatementEmitter(ExpressionEmitter):
         around = self.at
         self.move(node.span)
         emit = getattr(self, "run_" + node.__class__.__name__.lower(), None)
-        self.nesting += 1
         self.unit.check_nesting(self.nesting, node)
         if emit is not None:
             emit(node, destination)
         else:
             self.send(self.value(node, destination.many), destination)
-        self.nesting -= 1
         self.at = around
 
     def send(self, expression: ast.expr, destination: Destination) -> None:
@@ -47,9 +45,11 @@ class StatementEmitter(ExpressionEmitter):
             self.put(self.effect(expression))
 
     def body_of(self, emit: Callable[[], None]) -> list[ast.stmt]:
-        """The statements that EMIT puts, apart."""
+        """The statements that EMIT puts, apart: they are to stand inside another."""
         around, self.block = self.block, []
+        self.nesting += 1
         emit()
+        self.nesting -= 1
         added, self.block = self.block, around
         return added
 
