@@ -75,6 +75,6 @@ def _pattern(lark: Any) -> re.Pattern[str]:
     """Blanks and comments, then the next token."""
     terminals = sorted(lark.terminals, key=lambda terminal: -terminal.priority)
     texts = {terminal.name: terminal.pattern.to_regexp() for terminal in terminals}
-    blank = f"(?:{texts.pop('BLANK')}|{texts.pop('COMMENT')})*+"
+    blank = f"(?:{texts.pop('BLANK')}|{texts.pop('COMMENT')})*"
     tokens = "|".join([f"(?P<{name}>{text})" for name, text in texts.items()])
     return re.compile(f"{blank}(?:{tokens}|(?P<{END}>\\Z)|(?P<{WRONG}>))")
