@@ -33,6 +33,7 @@ class Failure(Exception):
     """
 
     story: Any = None  # what the runtime noted of it: where, who was asked (runtime/story.py)
+    condition: str | None = None  # of :error, the standard condition type that it is
     kept: tuple[Any, ...] | None = None  # the arguments as Lisp had them, once outside
 
     def __init__(self, cause: Any, *arguments: Any) -> None:
@@ -88,6 +89,8 @@ def control_error(message: str) -> Failure:
     return Failure(CONTROL_ERROR, message)
 
 
-def simple_error(message: str, *arguments: Any) -> Failure:
-    """Any other error of the host; arguments (message datum...)."""
-    return Failure(ERROR, message, *arguments)
+def simple_error(message: str, *arguments: Any, condition: str | None = None) -> Failure:
+    """Any other error of the host; arguments (message datum...); CONDITION names its standard type."""
+    failure = Failure(ERROR, message, *arguments)
+    failure.condition = condition
+    return failure

@@ -171,7 +171,7 @@ def type_of_condition(failure: Failure) -> ConditionType:
     if failure.__class__ is Condition:
         kind: ConditionType = failure.kind
         return kind
-    name = failure.cause.name
+    name = failure.condition or failure.cause.name
     return STANDARD.get(_TYPE_NAMES.get(name, name), STANDARD["ERROR"])
 
 

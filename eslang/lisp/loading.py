@@ -35,7 +35,7 @@ def load(path: Value, *options: Value) -> Value:
     if found is None:
         if absent is None:
             return None
-        raise simple_error("there is no such file", path)
+        raise simple_error("there is no such file", path, condition="FILE-ERROR")
     try:
         session.load_file(found, lambda form: form())
     except EslError as error:

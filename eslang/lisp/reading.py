@@ -43,7 +43,8 @@ def _read_text(text: str) -> _Found | None:
 
 
 def _wrong(error: EslError, source: Value) -> Failure:
-    return simple_error(f"READ: {error.diagnostic.message}", source)
+    kind = "END-OF-FILE" if isinstance(error, IncompleteInput) else "READER-ERROR"
+    return simple_error(f"READ: {error.diagnostic.message}", source, condition=kind)
 
 
 def _read_string(string: Value, options: tuple[Value, ...]) -> tuple[Value, int]:
@@ -60,7 +61,7 @@ def _read_string(string: Value, options: tuple[Value, ...]) -> tuple[Value, int]
         raise _wrong(error, string) from None
     if found is None:
         if eof_error_p is not None:
-            raise simple_error("end of input", string)
+            raise simple_error("end of input", string, condition="END-OF-FILE")
         return eof_value, last
     place = first + found.end
     if preserve is None and place < last and text[place].isspace():

@@ -20,7 +20,7 @@ _QUERY = Symbol.intern("*QUERY-IO*", "COMMON-LISP")
 def at_end(stream: InputStream, eof_error_p: Value, eof_value: Value) -> Value:
     """What a reading function returns at the end of STREAM: EOF-VALUE, or it fails."""
     if eof_error_p is not None:
-        raise simple_error("end of input", stream)
+        raise simple_error("end of input", stream, condition="END-OF-FILE")
     return eof_value
 
 

@@ -260,7 +260,7 @@ for _exact, _folded, _holds, _claim in _COMPARISONS.values():
 
 
 def _no_integer(string: Value) -> Failure:
-    return simple_error("PARSE-INTEGER: not an integer", string)
+    return simple_error("PARSE-INTEGER: not an integer", string, condition="PARSE-ERROR")
 
 
 def _parsed(string: Value, options: tuple[Value, ...]) -> tuple[Value, int]:
