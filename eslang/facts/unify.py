@@ -84,6 +84,13 @@ class Patterns:
                 return
         self.entries.append((pattern, entry))
 
+    def exact(self, term: Value) -> Value:
+        """What was remembered for TERM itself; None if nothing was."""
+        for pattern, entry in self.entries:
+            if match(pattern, term) == {} and is_same_pattern(pattern, term):
+                return entry
+        return None
+
     def find(self, term: Value) -> tuple[dict[Symbol, Value], Value]:
         """The first entry whose pattern TERM matches, one without variables before all; (…, None) if none."""
         best: tuple[dict[Symbol, Value], Value] = ({}, None)

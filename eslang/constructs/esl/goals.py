@@ -9,7 +9,7 @@ from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.esl.conditions import instance_form, test_form
+from eslang.constructs.esl.conditions import instance_form, term_form, test_form
 from eslang.runtime import failures
 
 NO_APPLICABLE_METHOD = Keyword("NO-APPLICABLE-METHOD")
@@ -90,7 +90,8 @@ def achieve(form: Cons, environment: Any) -> Value:
     """
     condition = form.cdr.car
     test = lisp_list(LAMBDA, None, test_form(condition, environment))
-    return lisp_list(ACHIEVE, instance_form(condition, environment), test)
+    instance = lisp_list(LAMBDA, None, instance_form(condition, environment))
+    return lisp_list(ACHIEVE, term_form(condition), instance, test)
 
 
 @function("(%define-goal pattern methods)", ESL)
@@ -100,22 +101,29 @@ def define_goal(pattern: Value, methods: Value) -> Value:
     return pattern
 
 
-@function("(%achieve condition test)", ESL)
-def achieve_function(condition: Value, test: Value) -> Value:
-    """Achieve CONDITION, which TEST tells."""
+@function("(%achieve condition instance test)", ESL)
+def achieve_function(condition: Value, instance: Value, test: Value) -> Value:
+    """Achieve CONDITION, which TEST tells; INSTANCE gives it with its arguments computed."""
     session = running.session
     tell = session.hooks.tell
     if test() is not None:
         tell("goal", None, state="no-action", condition=condition)
         return None
     tell("goal", None, state="attempting", condition=condition)
-    bindings, methods = session.goals.find(condition)
+    bindings, methods = _methods(condition, instance)
     if methods is None or not _ran(bindings, methods):
         return failures.signal(Failure(NO_APPLICABLE_METHOD, condition), continuable=True)
     if test() is None:
         return failures.signal(Failure(CONDITION_NOT_ACHIEVED, condition), continuable=True)
     tell("goal", None, state="achieved", condition=condition)
     return T
+
+
+def _methods(condition: Value, instance: Value) -> tuple[dict[Symbol, Value], Value]:
+    """The methods of CONDITION as it is written; else those whose pattern its instance matches."""
+    goals = running.session.goals
+    methods = goals.exact(condition)
+    return ({}, methods) if methods is not None else goals.find(instance())
 
 
 def _ran(bindings: dict[Symbol, Value], methods: Any) -> bool:
