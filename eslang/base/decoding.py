@@ -6,9 +6,8 @@ compiled code is kept can be opened without loading it.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from eslang.base.diagnostics import EslError, error_at
+from eslang.base.hints import TYPE_CHECKING
 from eslang.base.spans import Source, Span
 
 if TYPE_CHECKING:

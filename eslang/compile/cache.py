@@ -12,8 +12,8 @@ import marshal
 import os
 import sys
 from types import CodeType
-from typing import Any, NamedTuple
 
+from eslang.base.hints import Any, NamedTuple
 from eslang.base.image import Image
 from eslang.base.lists import Cons, from_items
 from eslang.base.symbols import Symbol, Value
