@@ -83,7 +83,8 @@ def fetch(key: str) -> list[Kept] | None:
         return None
     try:
         with open(os.path.join(where, key), "rb") as file:
-            check, data = file.read(32), file.read()
+            kept = memoryview(file.read())
+        check, data = kept[:32], kept[32:]
         if blake2b(data, digest_size=32).digest() != check:
             return None
         os.utime(os.path.join(where, key))  # it was used: see `forget_old`
