@@ -13,6 +13,7 @@ from eslang.base.control import Stop
 from eslang.base.hints import Any, Callable, TextIO
 from eslang.tools.options import Chosen, Usage
 
+YOUNG = 20_000  # objects made before Python looks for rings among them; a list makes as many as it is long
 LATER = ("scenario", "facts")  # options whose rooms are still to be built
 
 
@@ -84,6 +85,7 @@ class Opened:
     def __enter__(self) -> Any:
         if not gc.isenabled():
             gc.freeze()  # what is there from the start need never be looked at
+            gc.set_threshold(YOUNG)
             gc.enable()
         return self.interp
 
