@@ -15,7 +15,8 @@ class Naming(type):
 
     def __new__(cls, name: str, bases: tuple[type, ...], body: dict[str, object]) -> Naming:
         """The class of that body."""
-        names = tuple(body.get("__annotations__", ()))  # type: ignore[arg-type, var-annotated]
+        annotated: dict[str, str] = body.get("__annotations__", {})  # type: ignore[assignment]
+        names = tuple(field for field in annotated if not field.startswith("_"))
         defaults = {field: body.pop(field) for field in names if field in body}
         places = {field: property(itemgetter(place)) for place, field in enumerate(names)}
         return super().__new__(
