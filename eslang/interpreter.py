@@ -8,8 +8,6 @@ of chance, one output, one set of listeners; two of them never meet.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from eslang import prelude
 from eslang.base.border import leave, to_lisp, to_python
@@ -17,6 +15,7 @@ from eslang.base.control import Stop
 from eslang.base.decoding import decode, file_bytes
 from eslang.base.diagnostics import Diagnostic, EslError, error_at
 from eslang.base.failure import UNBOUND_VARIABLE, Failure
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, F, Iterable, Iterator, overload
 from eslang.base.image import PACKAGE, Image
 from eslang.base.many import values_list
 from eslang.base.printer import prin1
@@ -48,7 +47,6 @@ if TYPE_CHECKING:
     from eslang.constructs.esl.doubles import Double
     from eslang.reader.reader import Reading
 
-F = TypeVar("F", bound=Callable[..., Any])
 LATER = {"signal": COMES, "call_async": COMES, "facts": COMES.replace("tasks", "the logical database")}
 DEEPEST = 400_000  # Python frames; what is deeper is a :stack-exhausted failure
 

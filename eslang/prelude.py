@@ -6,7 +6,6 @@ special forms are wanted only when something is compiled.
 
 from __future__ import annotations
 
-import importlib
 import os
 
 LISP = [
@@ -78,7 +77,7 @@ FILES = [
 def import_rooms() -> None:
     """Import every room that registers something a plan can say."""
     for name in ROOMS:
-        importlib.import_module(name)
+        __import__(name)
 
 
 def stdlib_folder() -> str:

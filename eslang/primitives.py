@@ -7,11 +7,10 @@ failure there.
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.border import enter, to_lisp, to_python
 from eslang.base.errors import python_failure
 from eslang.base.failure import WRONG_NUMBER_OF_ARGUMENTS, Failure, simple_error
+from eslang.base.hints import Any
 from eslang.base.symbols import Keyword, Symbol, Value, lisp_name
 from eslang.base.text import String
 from eslang.compile.registry import ESL, Definition

@@ -8,11 +8,10 @@ kept. What was loaded so far, and in which order, is part of the circumstances.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from types import FunctionType
-from typing import Any
 
 from eslang.base.decoding import decode, file_bytes
+from eslang.base.hints import Any, Callable
 from eslang.base.spans import Source
 from eslang.base.symbols import Value
 from eslang.compile import cache

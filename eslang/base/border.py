@@ -7,9 +7,8 @@ Fraction; symbols and keywords are themselves; all else passes untouched
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.failure import Failure
+from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items
 from eslang.base.many import Values, primary
 from eslang.base.symbols import T, Value

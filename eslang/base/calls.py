@@ -7,9 +7,8 @@ stack: of such calls only so many may stand inside one another.
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
-from typing import Any
 
+from eslang.base.hints import Any, Sequence
 from eslang.base.symbols import Value
 
 

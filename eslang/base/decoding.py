@@ -6,9 +6,10 @@ compiled code is kept can be opened without loading it.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from codecs import BOM_UTF8
 
 from eslang.base.diagnostics import EslError, error_at
+from eslang.base.hints import TYPE_CHECKING
 from eslang.base.spans import Source, Span
 
 if TYPE_CHECKING:
@@ -24,9 +25,9 @@ def file_bytes(path: str | PathLike[str]) -> bytes:
 def decode(text: bytes, name: str) -> Source:
     """The source of that name, out of the bytes of a file; a byte order mark is dropped."""
     try:
-        return Source(name, text.decode("utf-8-sig"))
+        return Source(name, text.removeprefix(BOM_UTF8).decode())
     except UnicodeDecodeError as wrong:
-        source = Source(name, text.decode("utf-8-sig", "replace"))
+        source = Source(name, text.removeprefix(BOM_UTF8).decode(errors="replace"))
         before = wrong.object[: wrong.start].decode("utf-8")  # without the mark
         raise _wrong_encoding(source, before, wrong.object[wrong.start]) from None
 

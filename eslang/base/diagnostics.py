@@ -6,8 +6,7 @@ a plan did not manage is a Failure (failure.py) and not of this kind.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
+from eslang.base.hints import NamedTuple
 from eslang.base.spans import Span
 
 

@@ -8,8 +8,7 @@ are, so that one situation always looks the same (language reference §1).
 
 from __future__ import annotations
 
-from typing import Any
-
+from eslang.base.hints import Any
 from eslang.base.symbols import Keyword, Symbol
 
 TYPE_ERROR = Keyword("TYPE-ERROR")

@@ -6,10 +6,8 @@ The two change together.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from eslang.base.failure import Failure
+from eslang.base.hints import Any, Callable
 from eslang.base.printer import prin1, princ
 
 Arguments = tuple[Any, ...]

@@ -9,8 +9,7 @@ runtime turns into :unbound-variable or :undefined-function.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
+from eslang.base.hints import Callable
 from eslang.base.packages import Package
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.words import STANDARD_WORDS
@@ -59,6 +58,7 @@ class Image:
         self.packages: dict[str, Package] = {}
         self.sealed = False  # the library is there: nobody redefines the standard's operators any more
         self.special_forms: dict[Symbol, Value] = {}  # registry.Definition of each
+        self.printing: Value = None  # the printer variables and what they mean (lisp/output.py)
         self.counters: dict[str, int] = {}  # GENSYM and its like: deterministic per interpreter
         self._define_packages()
 

@@ -6,10 +6,10 @@ dotted; whoever needs a proper list says so with `items`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from itertools import repeat
 
 from eslang.base.failure import type_error
+from eslang.base.hints import Iterable, Iterator
 from eslang.base.symbols import Datum, Value
 
 SUSPICIOUS = 1_000_000  # a list so long is asked whether it is circular

@@ -8,8 +8,7 @@ variant is compiled when first wanted (compile/variants.py).
 
 from __future__ import annotations
 
-from typing import Any
-
+from eslang.base.hints import Any
 from eslang.base.symbols import Value
 
 

@@ -6,8 +6,7 @@ A package belongs to one interpreter; the symbols in it are shared by all
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
+from eslang.base.hints import Iterable
 from eslang.base.symbols import Datum, Symbol
 
 

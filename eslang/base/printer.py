@@ -8,12 +8,11 @@ the printer variables say comes as WriteSettings; nothing here reads them.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from types import BuiltinFunctionType, FunctionType
-from typing import Any, NamedTuple
 
 from eslang.base.character_names import character_name
 from eslang.base.failure import simple_error
+from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.lists import Cons
 from eslang.base.number_text import float_text, integer_text, rational_text
 from eslang.base.packages import Package

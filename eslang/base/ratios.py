@@ -7,9 +7,9 @@ Python's fractions are slow to load; `is_ratio` in numbers asks without it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
+
+from eslang.base.hints import Any, Callable
 
 
 class Ratio(Fraction):

@@ -6,8 +6,7 @@ the one that answers for an Image, with the packages as they are at that moment.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-
+from eslang.base.hints import Callable, Iterable
 from eslang.base.image import Image
 from eslang.base.symbols import Symbol
 

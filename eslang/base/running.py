@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from _thread import _local as ThreadLocal  # what threading.local is, without the rest of threading
 from types import FunctionType
-from typing import Any
 
 from eslang.base.failure import type_error, undefined_function
+from eslang.base.hints import Any
 from eslang.base.symbols import Symbol, Value
 
 

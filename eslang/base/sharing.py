@@ -7,8 +7,7 @@ stack. An object of a higher floor tells its parts by a method `lisp_parts()`.
 
 from __future__ import annotations
 
-from typing import Any
-
+from eslang.base.hints import Any
 from eslang.base.lists import Cons
 from eslang.base.symbols import Value
 from eslang.base.text import Array, Vector

@@ -6,8 +6,7 @@ behind its last character.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
+from eslang.base.hints import NamedTuple
 from eslang.base.symbols import Value
 
 

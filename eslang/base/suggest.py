@@ -7,7 +7,7 @@ is not offered. How the offer is worded is the business of whoever reports.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from eslang.base.hints import Iterable
 
 
 def nearest(word: str, names: Iterable[str]) -> str | None:

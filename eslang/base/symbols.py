@@ -8,7 +8,7 @@ kept in an Image (image.py). NIL is Python's None, so that a Lisp test is an
 
 from __future__ import annotations
 
-from typing import Any
+from eslang.base.hints import Any
 
 Value = Any  # any Lisp value; the one place where Any is honest
 NIL = None

@@ -7,10 +7,8 @@ macro is called and its expansion analysed in its place.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple, NoReturn
-
 from eslang.base.diagnostics import Diagnostic, EslError, Label
+from eslang.base.hints import Any, Callable, NamedTuple, NoReturn
 from eslang.base.image import Image
 from eslang.base.lists import Cons
 from eslang.base.shown import shown

@@ -12,8 +12,8 @@ import marshal
 import os
 import sys
 from types import CodeType
-from typing import Any, NamedTuple
 
+from eslang.base.hints import Any, NamedTuple
 from eslang.base.image import Image
 from eslang.base.lists import Cons, from_items
 from eslang.base.symbols import Symbol, Value
@@ -83,7 +83,8 @@ def fetch(key: str) -> list[Kept] | None:
         return None
     try:
         with open(os.path.join(where, key), "rb") as file:
-            check, data = file.read(32), file.read()
+            kept = memoryview(file.read())
+        check, data = kept[:32], kept[32:]
         if blake2b(data, digest_size=32).digest() != check:
             return None
         os.utime(os.path.join(where, key))  # it was used: see `forget_old`

@@ -7,12 +7,11 @@ there such a function, does it take so many arguments, is there such a variable?
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from types import CodeType
-from typing import Any
 
 from eslang.base.diagnostics import Diagnostic, EslError, Label
 from eslang.base.failure import Failure
+from eslang.base.hints import Any, Callable, Iterable
 from eslang.base.image import Image
 from eslang.base.lists import Cons
 from eslang.base.spans import Span, Spans

@@ -7,10 +7,9 @@ grow.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from types import CodeType, FunctionType
-from typing import Any
 
+from eslang.base.hints import Any, Callable
 from eslang.base.image import Image
 from eslang.base.symbols import Symbol, Value
 

@@ -10,8 +10,8 @@ arguments computed is kept in temporaries first.
 from __future__ import annotations
 
 import ast
-from typing import TYPE_CHECKING, NamedTuple
 
+from eslang.base.hints import TYPE_CHECKING, NamedTuple
 from eslang.base.symbols import Symbol
 from eslang.compile import core
 from eslang.compile.core import Const, Inline, Local, Node, Procedure, Variable

@@ -10,8 +10,8 @@ edge (`%signal-error`), so recovery procedures run before it is undone.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
 
+from eslang.base.hints import Callable
 from eslang.compile import core
 from eslang.compile.core import Const, Node
 from eslang.compile.emit import EFFECT, Destination, ExpressionEmitter, PythonLoop

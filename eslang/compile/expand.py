@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NoReturn
-
 from eslang.base.control import Failed
 from eslang.base.diagnostics import EslError
 from eslang.base.errors import to_failure
 from eslang.base.failure import Failure
+from eslang.base.hints import TYPE_CHECKING, Any, NoReturn
 from eslang.base.image import Image
 from eslang.base.lists import Cons
 from eslang.base.printer import prin1

@@ -9,9 +9,8 @@ refuses what is no number: hence `=` of unknown values is two comparisons.
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
 
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, NamedTuple
 from eslang.base.symbols import Symbol
 from eslang.base.text import Character
 from eslang.compile.core import Const, Inline, Local, Node

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import dis
 from types import CodeType, FunctionType
-from typing import Any
 
+from eslang.base.hints import Any
 from eslang.base.image import Cell
 
 PURE = frozenset(

@@ -7,9 +7,8 @@ walks them recursively: the emitter computes deep ones in steps.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable
-from typing import Any
 
+from eslang.base.hints import Any, Iterable
 from eslang.base.spans import Span
 
 LOAD, STORE = ast.Load(), ast.Store()

@@ -9,11 +9,9 @@ documentation.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeVar
+from eslang.base.hints import Any, Callable, F
 
 CL, ESL, SCS = "COMMON-LISP", "ESL", "SCS"
-F = TypeVar("F", bound=Callable[..., Any])
 
 
 class Definition:

@@ -7,8 +7,7 @@ procedure, or a block left from one.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
+from eslang.base.hints import TYPE_CHECKING, Any
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.core import Exit, Procedure, Variable
 

@@ -6,8 +6,7 @@ It is read here without the reader, since the compiler must not wait for it.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
-
+from eslang.base.hints import Any, NamedTuple
 from eslang.base.lists import Cons
 from eslang.base.symbols import Value
 from eslang.compile.registry import Definition

@@ -7,13 +7,12 @@ ticks) comes from the runtime and is added by the interpreter.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from types import FunctionType
-from typing import Any
 
 from eslang.base.calls import spread
 from eslang.base.control import Exit, Go, ReturnFrom
 from eslang.base.failure import control_error, simple_error
+from eslang.base.hints import Any, Callable
 from eslang.base.lists import Cons, from_items
 from eslang.base.many import Values, many_of, primary, values_list
 from eslang.base.running import to_function

@@ -7,11 +7,10 @@ be run again from its code alone (cache.py).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from types import CodeType
-from typing import Any
 
 from eslang.base.diagnostics import Diagnostic, error_at
+from eslang.base.hints import Any, Callable, Iterator
 from eslang.base.image import Image
 from eslang.base.lists import Cons
 from eslang.base.spans import Span, Spans

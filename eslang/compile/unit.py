@@ -11,9 +11,9 @@ from __future__ import annotations
 import ast
 import warnings
 from types import CodeType
-from typing import Any
 
 from eslang.base.diagnostics import error_at
+from eslang.base.hints import Any
 from eslang.base.image import Image
 from eslang.base.symbols import Symbol, Value
 from eslang.compile import core

@@ -7,9 +7,8 @@ whose state is the variable *WIDGET-STATUS* (stdlib/widgets.esl).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
 from eslang.base.failure import Failure
+from eslang.base.hints import TYPE_CHECKING, Any
 from eslang.base.symbols import Keyword
 
 if TYPE_CHECKING:

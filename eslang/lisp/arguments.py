@@ -6,9 +6,8 @@ A function registered with &key gets what follows its required arguments as
 
 from __future__ import annotations
 
-from typing import Final
-
 from eslang.base.failure import simple_error, type_error
+from eslang.base.hints import Final
 from eslang.base.symbols import Keyword, Symbol, Value
 
 

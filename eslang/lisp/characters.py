@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable
 from itertools import pairwise
 
 from eslang.base.character_names import character_name, find_character
 from eslang.base.failure import type_error
+from eslang.base.hints import Callable
 from eslang.base.number_text import DIGITS
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.base.text import Character, String, character

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from eslang.base.failure import type_error
+from eslang.base.hints import Callable
 from eslang.base.lists import Cons
 from eslang.base.running import running, to_function
 from eslang.base.symbols import Symbol, Value

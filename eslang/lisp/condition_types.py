@@ -7,10 +7,9 @@ is a Condition: a failure with a type of its own and slots.
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.failure import Failure, simple_error
 from eslang.base.failure_text import message_of
+from eslang.base.hints import Any
 from eslang.base.lists import Cons, items
 from eslang.base.printer import prin1
 from eslang.base.running import running

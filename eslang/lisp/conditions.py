@@ -7,10 +7,9 @@ restarts, are Lisp (stdlib/conditions.esl).
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.failure import TYPE_ERROR, Failure, simple_error
 from eslang.base.failure_text import message_of
+from eslang.base.hints import Any
 from eslang.base.lists import from_items, items
 from eslang.base.many import many_of
 from eslang.base.running import running, to_function

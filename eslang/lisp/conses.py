@@ -5,11 +5,11 @@ Lists may be dotted or circular wherever Common Lisp allows it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import repeat
 from operator import attrgetter
 
 from eslang.base.failure import type_error
+from eslang.base.hints import Callable
 from eslang.base.lists import SUSPICIOUS, Cons, check_end, from_items, items, lisp_list
 from eslang.base.sameness import is_eql
 from eslang.base.symbols import Value, truth

@@ -5,9 +5,8 @@ The compiler turns DEFUN and its kin into calls of these.
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.failure import simple_error
+from eslang.base.hints import Any
 from eslang.base.image import Cell, Image
 from eslang.base.lists import items, lisp_list
 from eslang.base.running import running

@@ -8,10 +8,8 @@ that names the directive and its position.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from eslang.base.failure import Failure, simple_error
+from eslang.base.hints import Any, Callable
 from eslang.base.symbols import Value
 from eslang.base.text import String, character
 

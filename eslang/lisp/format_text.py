@@ -5,9 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from eslang.base.character_names import character_name
+from eslang.base.hints import Callable
 from eslang.base.printer import write_text
 from eslang.base.running import running, to_function
 from eslang.base.sameness import is_eql

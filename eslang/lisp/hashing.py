@@ -8,10 +8,9 @@ is walked in the order of insertion.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from types import FunctionType
-from typing import Any
 
+from eslang.base.hints import Any, Callable
 from eslang.base.lists import Cons
 from eslang.base.symbols import Datum, Keyword, Symbol, Value
 from eslang.base.text import CHARACTERS, Array, Character, String, Vector

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.calls import spread
 from eslang.base.failure import type_error
+from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items
 from eslang.base.running import to_function
 from eslang.base.symbols import Value

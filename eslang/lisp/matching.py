@@ -8,10 +8,8 @@ walkers of the room call a user's predicate without a frame in between:
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from eslang.base.failure import simple_error
+from eslang.base.hints import Any, Callable
 from eslang.base.running import to_function
 from eslang.base.sameness import is_eql
 from eslang.base.symbols import Symbol, T, Value

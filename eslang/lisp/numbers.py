@@ -9,9 +9,9 @@ numbers_integers.py, powers and angles numbers_reals.py.
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable
 
 from eslang.base.failure import Failure, division_by_zero, simple_error, type_error
+from eslang.base.hints import Callable
 from eslang.base.symbols import Value, truth
 from eslang.compile.registry import function
 from eslang.lisp.predicates import is_number

@@ -7,9 +7,8 @@ the even neighbour.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from eslang.base.failure import division_by_zero
+from eslang.base.hints import Callable
 from eslang.base.many import Values
 from eslang.base.symbols import Value
 from eslang.compile.registry import function

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable
 
 from eslang.base.failure import Failure, division_by_zero, simple_error, type_error
+from eslang.base.hints import Callable
 from eslang.base.running import running
 from eslang.base.symbols import Value
 from eslang.compile.registry import function, variable

@@ -6,8 +6,6 @@ which does the work.
 
 from __future__ import annotations
 
-from weakref import WeakKeyDictionary
-
 from eslang.base.failure import Failure, type_error
 from eslang.base.image import PACKAGE, Image
 from eslang.base.many import Values
@@ -71,15 +69,12 @@ class _Kept:
         self.settings: dict[bool | None, WriteSettings] = {}
 
 
-_KEPT: WeakKeyDictionary[Image, _Kept] = WeakKeyDictionary()
-
-
 def current_settings(escape: bool | None = None) -> WriteSettings:
     """What the printer variables say now; ESCAPE, if given, stands above them."""
     image = running.session.image
-    kept = _KEPT.get(image)
-    if kept is None:
-        kept = _KEPT[image] = _Kept(image)
+    if image.printing is None:
+        image.printing = _Kept(image)
+    kept: _Kept = image.printing
     values = [cell.value for cell in kept.cells]
     if values != kept.values:
         kept.values, kept.settings = values, {}

@@ -6,9 +6,8 @@ DEFPACKAGE, IN-PACKAGE and DO-SYMBOLS expand into the % functions here.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from eslang.base.failure import simple_error, type_error
+from eslang.base.hints import Callable
 from eslang.base.image import PACKAGE, Image
 from eslang.base.lists import Cons, from_items, items
 from eslang.base.many import Values

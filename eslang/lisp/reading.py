@@ -7,10 +7,9 @@ the same reason #. is refused.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from eslang.base.diagnostics import EslError, IncompleteInput
 from eslang.base.failure import Failure, simple_error
+from eslang.base.hints import NamedTuple
 from eslang.base.many import Values
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, T, Value

@@ -7,9 +7,8 @@ a Lisp function.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-
 from eslang.base.failure import index_out_of_range, simple_error, type_error
+from eslang.base.hints import Callable, Iterable, Iterator
 from eslang.base.lists import SUSPICIOUS, Cons, cells, check_end, from_items, items
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import CHARACTERS, Character, String, Vector

@@ -6,9 +6,8 @@ REMOVE-DUPLICATES; DELETE and the N-variants may reuse what they are given.
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.failure import type_error
+from eslang.base.hints import Any
 from eslang.base.lists import Cons
 from eslang.base.symbols import Value
 from eslang.base.text import Vector

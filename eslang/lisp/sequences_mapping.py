@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.calls import spread
+from eslang.base.hints import Any
 from eslang.base.running import to_function
 from eslang.base.symbols import Value, truth
 from eslang.base.text import Vector

@@ -7,8 +7,7 @@ in the order of < or >.
 
 from __future__ import annotations
 
-from typing import Any
-
+from eslang.base.hints import Any
 from eslang.base.running import to_function
 from eslang.base.symbols import Value
 from eslang.compile.registry import function

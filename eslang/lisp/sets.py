@@ -7,10 +7,10 @@ the first list, then of the second.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import repeat
 
 from eslang.base.failure import type_error
+from eslang.base.hints import Callable
 from eslang.base.lists import SUSPICIOUS, Cons, cells, from_items, items
 from eslang.base.symbols import Datum, Value, truth
 from eslang.compile.registry import function

@@ -7,8 +7,7 @@ Common Lisp.
 
 from __future__ import annotations
 
-from typing import Any
-
+from eslang.base.hints import Any
 from eslang.base.lists import Cons, lisp_list
 from eslang.base.symbols import Symbol, T, Value
 from eslang.compile.registry import CL, macro

@@ -8,10 +8,9 @@ The standard streams are made for each interpreter.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
-from typing import Any
 
 from eslang.base.failure import simple_error, type_error
+from eslang.base.hints import Any, Callable
 from eslang.base.running import running
 from eslang.base.symbols import Datum, Symbol, T, Value, truth
 from eslang.base.text import String

@@ -7,9 +7,9 @@ is changed, only a string.
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable
 
 from eslang.base.failure import Failure, index_out_of_range, simple_error, type_error
+from eslang.base.hints import Callable
 from eslang.base.lists import Cons, items
 from eslang.base.many import Values
 from eslang.base.number_text import digits_value

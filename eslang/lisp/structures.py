@@ -7,10 +7,8 @@ and compiles the constructors.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from eslang.base.failure import TYPE_ERROR, Failure, simple_error
+from eslang.base.hints import Any, Callable
 from eslang.base.lists import items
 from eslang.base.sharing import Part
 from eslang.base.symbols import Datum, Symbol, Value, truth

@@ -6,8 +6,7 @@ known by its lineage, numbers by their limits, all else by the table below.
 
 from __future__ import annotations
 
-from typing import Any
-
+from eslang.base.hints import Any
 from eslang.base.lists import Cons, items
 from eslang.base.many import pack
 from eslang.base.symbols import Symbol, T, Value, truth

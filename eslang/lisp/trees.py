@@ -6,8 +6,7 @@ as deep as memory allows.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
+from eslang.base.hints import Callable
 from eslang.base.lists import Cons, items
 from eslang.base.symbols import Value, truth
 from eslang.compile.registry import function

@@ -6,11 +6,9 @@ here; those that a program defines hang from the cell of their name, as a Type.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
-
 from eslang.base.calls import spread
 from eslang.base.failure import simple_error
+from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.lists import Cons, from_items, items
 from eslang.base.packages import Package
 from eslang.base.running import running, to_function

@@ -6,8 +6,7 @@ of the rule, where each of them begins, and where the last one ends.
 
 from __future__ import annotations
 
-from typing import Any
-
+from eslang.base.hints import Any
 from eslang.base.lists import Cons
 from eslang.base.spans import Source, Span, Spans
 from eslang.base.symbols import Symbol, Value

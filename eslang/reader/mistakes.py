@@ -11,9 +11,9 @@ from __future__ import annotations
 import re
 from bisect import bisect_left
 from functools import cache
-from typing import NamedTuple
 
 from eslang.base.diagnostics import Diagnostic, EslError, IncompleteInput, Label
+from eslang.base.hints import NamedTuple
 from eslang.base.spans import Span
 from eslang.reader.atoms import Unreadable
 from eslang.reader.broken import Place, kind_of, pass_comment, place_at, point

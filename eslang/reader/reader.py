@@ -8,9 +8,7 @@ change between two forms, and what stands before a mistake can be run.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
-
+from eslang.base.hints import Any, Callable, Iterator, NamedTuple
 from eslang.base.resolve import Resolve
 from eslang.base.spans import Source, Span, Spans
 from eslang.base.symbols import Value

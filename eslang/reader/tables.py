@@ -11,7 +11,8 @@ from __future__ import annotations
 import re
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+
+from eslang.base.hints import Any, NamedTuple
 
 GRAMMAR = Path(__file__).with_name("esl.lark")
 END, WRONG = "END", "WRONG"  # beside the grammar's terminals: the text's end, and what is none

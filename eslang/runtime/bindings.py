@@ -6,9 +6,8 @@ stack that belongs to the running task.
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.failure import type_error
+from eslang.base.hints import Any
 from eslang.base.image import Cell, Image
 from eslang.base.lists import items
 from eslang.base.symbols import Symbol, Value

@@ -5,7 +5,7 @@ Python's random is imported when chance is first wanted; few plans want it.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from eslang.base.hints import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from random import Random

@@ -8,9 +8,6 @@ unwound (`signal_error`), so a procedure runs before anything is undone.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple, NoReturn
-
 from eslang.base.calls import spread
 from eslang.base.control import Abort, AbortNow, Failed, Retry, RetryNow, Stop, Unwind
 from eslang.base.errors import to_failure
@@ -29,6 +26,7 @@ from eslang.base.failure import (
     Failure,
     control_error,
 )
+from eslang.base.hints import Any, Callable, NamedTuple, NoReturn
 from eslang.base.running import running
 from eslang.base.stack import STACK
 from eslang.base.symbols import Value

@@ -6,8 +6,7 @@ where nobody listens, nothing is made and nothing is paid.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from eslang.base.hints import Any, Callable, NamedTuple
 
 
 class Event(NamedTuple):

@@ -9,8 +9,8 @@ from __future__ import annotations
 import sys
 from itertools import islice
 from types import CodeType, FrameType, TracebackType
-from typing import NamedTuple
 
+from eslang.base.hints import NamedTuple
 from eslang.base.symbols import Value
 
 DEEPEST = 50  # frames that a story tells

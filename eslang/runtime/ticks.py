@@ -9,12 +9,11 @@ call instead, by a profiler hook that is in place only while a stop is pending.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator
 from itertools import chain, repeat
 from types import FrameType
-from typing import Any
 
 from eslang.base.control import Stop
+from eslang.base.hints import Any, Iterable, Iterator
 
 SLICE = 1000  # rounds between two safepoints
 

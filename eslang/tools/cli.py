@@ -19,7 +19,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the command line ARGUMENTS; the exit code. Without them, run that of the process, and end it."""
     prepare_streams()
     if arguments is None:
-        gc.disable()  # nothing of what starting makes is garbage; `opened` enables it again
+        gc.disable()  # nothing of what starting makes is garbage; `Opened` enables it again
     code = guarded(sys.argv[1:] if arguments is None else arguments)
     try:
         sys.stdout.flush()

@@ -7,11 +7,12 @@ cleanups outlast, ends the whole command at once.
 
 from __future__ import annotations
 
+import _signal as signal  # type: ignore[import-not-found]  # without the enumerations that signal brings
 import os
-import signal
 import sys
 from types import FrameType
-from typing import Any
+
+from eslang.base.hints import Any
 
 INTERRUPTED, TIME_LIMIT = 130, 124
 GRACE = 2.0  # seconds that cleanups have after the time limit

@@ -7,8 +7,7 @@ show no line (a clause without limit), the wording follows theirs.
 
 from __future__ import annotations
 
-from typing import Any
-
+from eslang.base.hints import Any
 from eslang.base.printer import prin1
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value

@@ -8,13 +8,12 @@ from __future__ import annotations
 import gc
 import os
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from typing import Any, TextIO
 
 from eslang.base.control import Stop
+from eslang.base.hints import Any, Callable, TextIO
 from eslang.tools.options import Chosen, Usage
 
+YOUNG = 20_000  # objects made before Python looks for rings among them; a list makes as many as it is long
 LATER = ("scenario", "facts")  # options whose rooms are still to be built
 
 
@@ -62,33 +61,38 @@ def silence(stream: TextIO) -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
-@contextmanager
-def opened(chosen: Chosen, listener: Callable[[Any], None] | None) -> Iterator[Any]:
+class Opened:
     """An interpreter with LISTENER, as CHOSEN wants it; closed at the end."""
-    from eslang.interpreter import Interpreter
 
-    for key in LATER:
-        if chosen.has(key):
-            raise Usage(f"`--{key}` is not available yet")
-    clock = chosen.value("clock") or "real"
-    if clock not in ("real", "virtual"):
-        raise Usage(f"`--clock` is `real` or `virtual`, not `{clock}`")
-    seed = seed_of(chosen)
-    listeners = [listener] if listener is not None else []
-    stream = trace_stream(chosen)
-    if stream is not None:
-        from eslang.tools.tracing import Tracer
+    def __init__(self, chosen: Chosen, listener: Callable[[Any], None] | None) -> None:
+        from eslang.interpreter import Interpreter
 
-        listeners.append(Tracer(stream))
-    try:
-        with Interpreter(seed=seed, clock=clock, output=Outlet(sys.stdout), listeners=listeners) as interp:
-            if not gc.isenabled():
-                gc.freeze()  # what is there from the start need never be looked at
-                gc.enable()
-            yield interp
-    finally:
-        if stream is not None:
-            stream.close()
+        for key in LATER:
+            if chosen.has(key):
+                raise Usage(f"`--{key}` is not available yet")
+        clock = chosen.value("clock") or "real"
+        if clock not in ("real", "virtual"):
+            raise Usage(f"`--clock` is `real` or `virtual`, not `{clock}`")
+        seed = seed_of(chosen)
+        listeners = [listener] if listener is not None else []
+        self.stream = trace_stream(chosen)
+        if self.stream is not None:
+            from eslang.tools.tracing import Tracer
+
+            listeners.append(Tracer(self.stream))
+        self.interp = Interpreter(seed=seed, clock=clock, output=Outlet(sys.stdout), listeners=listeners)
+
+    def __enter__(self) -> Any:
+        if not gc.isenabled():
+            gc.freeze()  # what is there from the start need never be looked at
+            gc.set_threshold(YOUNG)
+            gc.enable()
+        return self.interp
+
+    def __exit__(self, *error: object) -> None:
+        self.interp.close()
+        if self.stream is not None:
+            self.stream.close()
 
 
 def seed_of(chosen: Chosen) -> int:

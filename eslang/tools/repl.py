@@ -15,7 +15,7 @@ from eslang.base.symbols import Keyword
 from eslang.tools.conversation import PROMPT, Conversation, Leave
 from eslang.tools.interrupts import Interrupts
 from eslang.tools.narrator import narrate, narrate_ends
-from eslang.tools.opening import opened, readable
+from eslang.tools.opening import Opened, readable
 from eslang.tools.options import Chosen
 from eslang.tools.run import load, outcome
 from eslang.tools.tokens import Balance
@@ -42,7 +42,7 @@ def repl(chosen: Chosen) -> int:
     """Do what `esl repl` was asked for; the exit code."""
     for path in chosen.words:
         readable(path)
-    with opened(chosen, narrate_ends if chosen.has("quiet") else narrate) as interp:
+    with Opened(chosen, narrate_ends if chosen.has("quiet") else narrate) as interp:
         for path in chosen.words:
             code = outcome(interp, lambda path=path: load(interp, path))  # type: ignore[misc]
             if code:

@@ -7,15 +7,14 @@ plan is a promise.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
-from typing import Any
 
 from eslang.base.control import Stop
 from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
+from eslang.base.hints import Any, Callable
 from eslang.tools.interrupts import Interrupts
 from eslang.tools.narrator import narrate
-from eslang.tools.opening import OutputClosed, limit_of, opened, readable
+from eslang.tools.opening import Opened, OutputClosed, limit_of, readable
 from eslang.tools.options import Chosen, Usage
 
 FAILED, WRONG = 1, 65
@@ -29,7 +28,7 @@ def run(chosen: Chosen) -> int:
     for path in chosen.words:
         readable(path)
     limit = limit_of(chosen)
-    with opened(chosen, None if chosen.has("quiet") else narrate) as interp:
+    with Opened(chosen, None if chosen.has("quiet") else narrate) as interp:
         with Interrupts(interp, limit) as interrupts:
             code = outcome(interp, lambda: plan(interp, chosen))
         return code if interrupts.code is None else interrupts.code

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from pathlib import Path
 
 from architecture.sources import MODULES, Module, imports_of
 from support import run_python
@@ -20,6 +21,7 @@ DOORS = {
     "sys.stdin": {"eslang/lisp/streams.py"},
 }
 LATE = ("prompt_toolkit", "lark", "asyncio", "argparse", "inspect", "dataclasses", "logging", "fractions")
+WEIGHTS = ("typing", "collections", "contextlib", "enum", "functools", "re", "signal", "weakref")
 
 
 def touched(module: Module) -> list[tuple[str, int]]:
@@ -63,3 +65,24 @@ def test_importing_eslang_loads_nothing_slow() -> None:
 def test_importing_eslang_takes_less_than_150_milliseconds() -> None:
     code = "import time; begun = time.process_time(); import eslang; print(time.process_time() - begun)"
     assert min(float(run_python(code)) for _ in range(5)) < 0.150
+
+
+def test_a_start_carries_no_weight_that_it_does_not_need(tmp_path: Path) -> None:
+    plan = tmp_path / "plan.esl"
+    plan.write_text("(print :ready)")
+    text = f"import sys; from eslang.tools.cli import main; main(['run', {str(plan)!r}]); print(*sys.modules)"
+    run_python(text)  # whatever is not kept yet is compiled now
+    loaded = run_python(text).split()
+    bare = run_python("import sys; print(*sorted(sys.modules))").split()
+    assert [name for name in WEIGHTS if name in loaded and name not in bare] == []
+
+
+def test_below_the_tools_type_words_come_from_the_cheap_room() -> None:
+    wrong = [
+        f"{module.place}:{line} {name}"
+        for module in MODULES
+        if not module.name.startswith(("eslang.tools", "eslang.base.hints"))
+        for name, _, line in imports_of(module)
+        if name in ("typing", "collections.abc")
+    ]
+    assert wrong == []

@@ -27,6 +27,7 @@ def works() -> Iterator[Work]:
         plan = Path(folder) / "one.esl"
         plan.write_text('(format t "hello~%")\n', encoding="utf-8")
         environment = {**os.environ, "PYTHONPATH": str(ROOT), "ESLANG_CACHE": str(Path(folder) / "cache")}
+        environment.pop("PYTHONDONTWRITEBYTECODE", None)  # an installed eslang has its bytecode
 
         def run(*words: str) -> int:
             return subprocess.run(

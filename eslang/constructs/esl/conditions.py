@@ -7,9 +7,8 @@ relation; a call, if it names a function; else a query (language reference
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.failure import undefined_function
+from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value, truth

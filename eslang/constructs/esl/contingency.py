@@ -7,10 +7,9 @@ matter of text: an internal name stands, inside each clause, for its form.
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.control import AbortNow, RetryNow
 from eslang.base.failure import Failure, control_error, type_error
+from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.many import many_of
 from eslang.base.running import running

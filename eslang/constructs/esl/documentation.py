@@ -4,9 +4,8 @@ Source: ours; the papers leave it to Lisp.
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.failure import simple_error
+from eslang.base.hints import Any
 from eslang.base.lists import Cons, lisp_list
 from eslang.base.many import Values
 from eslang.base.running import running

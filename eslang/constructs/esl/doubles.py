@@ -8,11 +8,9 @@ Source: ours; the papers tell of no tests.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from eslang.base.border import to_lisp, to_python
 from eslang.base.failure import simple_error
+from eslang.base.hints import Any, Callable
 from eslang.base.image import Cell
 from eslang.base.lists import from_items, items
 from eslang.base.many import many_of, primary

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.failure import Failure, unbound_variable
+from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, T, Value

@@ -7,9 +7,8 @@ and the next form is said.
 
 from __future__ import annotations
 
-from typing import Any
-
 from eslang.base.failure import Failure
+from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.many import many_of, values_list
 from eslang.base.printer import prin1
