@@ -64,7 +64,7 @@ def return_from(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     name = form.cdr.car
     target = scope.find_block(name)
     if target is None:
-        names = [symbol.name for frame in _frames(scope) for symbol in frame.blocks if symbol is not None]
+        names = [symbol.name for frame in scope.frames() for symbol in frame.blocks if symbol is not None]
         close = nearest(prin1(name), names)
         analyser.fail(
             "unknown-block",
@@ -73,13 +73,6 @@ def return_from(analyser: Analyser, form: Cons, scope: Scope) -> Node:
         )
     value = analyser.nodes(form.cdr.cdr, scope) or [Const(analyser.span, None)]
     return ReturnFrom(analyser.span, target, value[0], leave(scope, target))
-
-
-def _frames(scope: Scope) -> list[Scope]:
-    frames = [scope]
-    while frames[-1].outer is not None:
-        frames.append(frames[-1].outer)
-    return frames
 
 
 @special_form("(tagbody &rest statements)")

@@ -7,7 +7,7 @@ procedure, or a block left from one.
 
 from __future__ import annotations
 
-from eslang.base.hints import TYPE_CHECKING, Any
+from eslang.base.hints import TYPE_CHECKING, Any, Iterator
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.core import Exit, Procedure, Variable
 
@@ -45,7 +45,7 @@ SPECIAL = Special()
 class Scope:
     """One frame of names, and the frames around it."""
 
-    __slots__ = ("analyser", "blocks", "functions", "notes", "outer", "procedure", "tags", "variables")
+    __slots__ = ("analyser", "blocks", "functions", "outer", "procedure", "tags", "variables")
 
     def __init__(self, outer: Scope | None, procedure: Procedure, analyser: Analyser) -> None:
         self.outer = outer
@@ -55,35 +55,31 @@ class Scope:
         self.functions: dict[Symbol | None, Variable | LocalMacro] = {}
         self.blocks: dict[Symbol | None, Exit] = {}
         self.tags: dict[Value, tuple[Exit, int]] = {}
-        self.notes: dict[str, Value] = {}  # what constructs tell the forms inside them
 
     def inner(self, procedure: Procedure | None = None) -> Scope:
         """A new frame inside this one, perhaps at the start of an inner procedure."""
         return Scope(self, procedure or self.procedure, self.analyser)
 
-    def find_variable(self, symbol: Symbol) -> Variable | SymbolMacro | Special | None:
-        """What SYMBOL means as a variable here; None: nothing lexical."""
+    def frames(self) -> Iterator[Scope]:
+        """This frame and those around it, innermost first."""
         frame: Scope | None = self
         while frame is not None:
-            found = frame.variables.get(symbol)
-            if found is not None:
-                if found.__class__ is Variable:
-                    self.mention(found)
-                return found
+            yield frame
             frame = frame.outer
-        return None
+
+    def find_variable(self, symbol: Symbol) -> Variable | SymbolMacro | Special | None:
+        """What SYMBOL means as a variable here; None: nothing lexical."""
+        found = next((f.variables[symbol] for f in self.frames() if symbol in f.variables), None)
+        if isinstance(found, Variable):
+            self.mention(found)
+        return found
 
     def find_function(self, symbol: Value) -> Variable | LocalMacro | None:
         """What SYMBOL means as an operator here; None: nothing lexical."""
-        frame: Scope | None = self
-        while frame is not None:
-            found = frame.functions.get(symbol)
-            if found is not None:
-                if found.__class__ is Variable:
-                    self.mention(found)
-                return found
-            frame = frame.outer
-        return None
+        found = next((f.functions[symbol] for f in self.frames() if symbol in f.functions), None)
+        if isinstance(found, Variable):
+            self.mention(found)
+        return found
 
     def mention(self, variable: Variable) -> None:
         """Note that code here uses VARIABLE, perhaps across procedures."""
@@ -96,37 +92,13 @@ class Scope:
 
     def find_block(self, symbol: Symbol | None) -> Exit | None:
         """The innermost block called SYMBOL."""
-        frame: Scope | None = self
-        while frame is not None:
-            if symbol in frame.blocks:
-                return frame.blocks[symbol]
-            frame = frame.outer
-        return None
+        return next((frame.blocks[symbol] for frame in self.frames() if symbol in frame.blocks), None)
 
     def find_tag(self, tag: Value) -> tuple[Exit, int] | None:
         """The innermost tagbody with TAG, and the number of its segment."""
-        frame: Scope | None = self
-        while frame is not None:
-            if tag in frame.tags:
-                return frame.tags[tag]
-            frame = frame.outer
-        return None
-
-    def find_note(self, name: str) -> Value:
-        """What the innermost construct that noted NAME said; None: nobody did."""
-        frame: Scope | None = self
-        while frame is not None:
-            if name in frame.notes:
-                return frame.notes[name]
-            frame = frame.outer
-        return None
+        return next((frame.tags[tag] for frame in self.frames() if tag in frame.tags), None)
 
     def visible(self, kind: str) -> list[str]:
         """The names of all lexical variables or functions here, for hints."""
-        names = []
-        frame: Scope | None = self
-        while frame is not None:
-            table = frame.variables if kind == "variable" else frame.functions
-            names += [symbol.name for symbol in table if symbol is not None]
-            frame = frame.outer
-        return names
+        tables = [frame.variables if kind == "variable" else frame.functions for frame in self.frames()]
+        return [symbol.name for table in tables for symbol in table if isinstance(symbol, Symbol)]
