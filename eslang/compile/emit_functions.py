@@ -8,11 +8,16 @@ that also change live in a Box, which is handed over instead.
 from __future__ import annotations
 
 import ast
+import sys
 
 from eslang.compile import core
 from eslang.compile.core import Const, KeyParameter, Lambda, Optional, Variable
 from eslang.compile.emit import PLAIN, Destination
 from eslang.compile.emit_statements import StatementEmitter
+
+# Python 3.13 up to 3.13.7 looks for the end of the stack only where a function gets just the arguments
+# that it has parameters for (CPython issue 132744); so one with other parameters must look for itself.
+UNCHECKED = (3, 13) <= sys.version_info < (3, 13, 8)
 
 
 class Emitter(StatementEmitter):
@@ -82,6 +87,8 @@ class Emitter(StatementEmitter):
         return self.define(name, parameters, defaults, rest, body)
 
     def function_body(self, node: Lambda, rest: str | None) -> None:
+        if UNCHECKED and (node.optional or rest is not None):
+            self.put(self.effect(self.call_support("%here")))
         self.box_parameters(node.required)
         for optional in node.optional:
             self.optional_parameter(optional)

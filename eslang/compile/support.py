@@ -50,6 +50,10 @@ def receive(result: Value, count: int) -> tuple[Value, ...]:
     return (result,) + (None,) * (count - 1)
 
 
+def here() -> None:
+    """Do nothing; only, Python looks for the end of the stack where this is called."""
+
+
 def call_with_values(function: Value, *results: Value) -> Value:
     """MULTIPLE-VALUE-CALL, for one value."""
     return spread(to_function(function), [value for result in results for value in values_list(result)])
@@ -165,6 +169,7 @@ SUPPORT: dict[str, Any] = {
     "%Exit": Exit,
     "%ReturnFrom": ReturnFrom,
     "%Go": Go,
+    "%here": here,
     "%eq": is_eq,
     "%eql": is_eql,
     "%primary": primary,

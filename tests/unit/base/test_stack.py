@@ -57,6 +57,8 @@ PATHS = {
     "rest arguments": path("(+ 1 (%f (- n 1) 2 3))", "n &rest more"),
     "keyword arguments": path("(+ 1 (%f (- n 1) :k 2))", "n &key k"),
     "a default": Path("(defun %f (n &optional (m (if (= n 0) 0 (%f (- n 1))))) (list m) n)"),
+    "an argument left out": path("(+ 1 (%f (- n 1)))", "n &optional m"),
+    "a rest unused": Path("(defun %f (n &rest r) (if (= n 0) 0 (+ 1 (%f (- n 1)))))"),
     "multiple values": path("(multiple-value-bind (a b) (%f (- n 1)) (values (+ 1 a) b))"),
     "multiple-value-call": path("(+ 1 (multiple-value-call #'%f (values (- n 1))))"),
     "a special variable": path("(let ((*%v* n)) (+ 1 (%f (- n 1))))"),
