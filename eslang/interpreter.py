@@ -11,6 +11,7 @@ import sys
 
 from eslang import prelude
 from eslang.base.border import leave, to_lisp, to_python
+from eslang.base.calls import spread
 from eslang.base.control import Stop
 from eslang.base.decoding import decode, file_bytes
 from eslang.base.diagnostics import Diagnostic, EslError, error_at
@@ -235,7 +236,7 @@ class Interpreter:
         with self.door():
             designator: Any = self.symbol(name) if isinstance(name, str) else name
             values = [to_lisp(argument) for argument in arguments]
-            return to_python(run_task(lambda: to_function(designator)(*values)))
+            return to_python(run_task(lambda: spread(to_function(designator), values)))
 
     def symbol(self, text: str) -> Symbol | None:
         """The symbol that TEXT names in the current package, as the reader would read it."""

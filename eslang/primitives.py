@@ -8,6 +8,7 @@ failure there.
 from __future__ import annotations
 
 from eslang.base.border import enter, to_lisp, to_python
+from eslang.base.calls import reenter, spread
 from eslang.base.errors import python_failure
 from eslang.base.failure import WRONG_NUMBER_OF_ARGUMENTS, Failure, simple_error
 from eslang.base.hints import Any
@@ -52,10 +53,12 @@ def _wrapped(function: Any, name: str, expected: Arity, positional: int | None) 
             keywords = _keywords(list(arguments[positional:]), given[positional:], expected)
             given = given[:positional]
         try:
-            result = function(*given, **keywords)
+            result = reenter(function, given, keywords) if keywords else spread(function, given)
         except Failure as failure:
             enter(failure)
             return failures.signal(failure, continuable=True)
+        except RecursionError:
+            raise  # the stack is the plan's as much as the primitive's
         except Exception as error:
             return failures.signal(python_failure(error), continuable=False)
         return to_lisp(result)

@@ -11,6 +11,8 @@ import sys
 from eslang.base.hints import Any, Sequence
 from eslang.base.symbols import Value
 
+NONE: dict[str, Any] = {}
+
 
 def spread(function: Any, arguments: Sequence[Value]) -> Value:
     """Call FUNCTION with ARGUMENTS; directly where they are few, to spare the C stack."""
@@ -30,20 +32,20 @@ def spread(function: Any, arguments: Sequence[Value]) -> Value:
 
 if sys.version_info >= (3, 12):
 
-    def reenter(function: Any, arguments: Sequence[Value]) -> Value:
+    def reenter(function: Any, arguments: Sequence[Value], keywords: dict[str, Any] = NONE) -> Value:
         """Call FUNCTION with any number of arguments."""
-        return function(*arguments)
+        return function(*arguments, **keywords)
 
 else:
     DEEPEST = 1500
     _depth = [0]
 
-    def reenter(function: Any, arguments: Sequence[Value]) -> Value:
+    def reenter(function: Any, arguments: Sequence[Value], keywords: dict[str, Any] = NONE) -> Value:
         """Call FUNCTION with any number of arguments; such calls use the C stack on Python 3.11."""
         if _depth[0] > DEEPEST:
             raise RecursionError("too many calls with many arguments inside one another")
         _depth[0] += 1
         try:
-            return function(*arguments)
+            return function(*arguments, **keywords)
         finally:
             _depth[0] -= 1

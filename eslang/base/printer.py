@@ -18,7 +18,7 @@ from eslang.base.number_text import float_text, integer_text, rational_text
 from eslang.base.packages import Package
 from eslang.base.sharing import COMPOUND, Part, contains_itself, is_compound, object_parts, shared_parts
 from eslang.base.symbol_text import symbol_text
-from eslang.base.symbols import Keyword, Symbol, Value, lisp_name
+from eslang.base.symbols import Datum, Keyword, Symbol, Value, lisp_name
 from eslang.base.text import Array, Character, String, Vector
 
 _PREFIXES = {
@@ -154,6 +154,8 @@ def _object(value: Value, settings: WriteSettings) -> str:
 
 def foreign_text(value: Value) -> str:
     """A few words for a Python object that is no Lisp value."""
+    if isinstance(value, Datum):  # one of ours, which asks the printer for its own text
+        return type(value).__name__.upper()
     try:
         shown = " ".join(repr(value).split())
     except Exception:

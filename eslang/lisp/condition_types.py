@@ -56,6 +56,10 @@ class ConditionType(Datum):
     def __call__(self, value: Value) -> bool:
         return isinstance(value, Failure) and self in type_of_condition(value).line
 
+    def print_lisp(self, settings: Any) -> str:
+        """A type that a program gets hold of prints as its name."""
+        return prin1(self.name, settings)
+
     @property
     def cause(self) -> Keyword:
         """The cause of failures of this type."""

@@ -30,7 +30,7 @@ from eslang.base.hints import Any, Callable, NamedTuple, NoReturn
 from eslang.base.running import running
 from eslang.base.stack import STACK
 from eslang.base.symbols import Value
-from eslang.runtime.story import Asked, Story, as_place, capture_stack
+from eslang.runtime.story import Asked, Story, as_place, capture_stack, has_come_far
 
 HOST_CAUSES = (
     TYPE_ERROR,
@@ -321,4 +321,7 @@ def tell_story(failure: Failure, innermost: Form | None, causes: Causes) -> Stor
             left = None if clause.limit is None else clause.limit - used
             asked.append(Asked(clause.cause, as_place(clause.place), takes, used, left))
         form = form.outer
+    before: Story | None = failure.story
+    if before is not None and has_come_far(failure):  # through Python and back, more than once
+        return Story(tuple(asked), before.stack)
     return Story(tuple(asked), capture_stack(failure))

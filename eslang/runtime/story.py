@@ -14,6 +14,7 @@ from eslang.base.hints import NamedTuple
 from eslang.base.symbols import Value
 
 DEEPEST = 50  # frames that a story tells
+FAR = 500  # frames that a failure has passed
 
 
 class Place(NamedTuple):
@@ -98,6 +99,16 @@ def capture_stack(error: BaseException | None = None) -> tuple[Frame, ...]:
             _note(found, running, running.f_lasti)
         running = running.f_back
     return tuple(found)
+
+
+def has_come_far(error: BaseException) -> bool:
+    """True if ERROR has passed so many frames that to look at them at each border would take too long."""
+    trace: TracebackType | None = error.__traceback__
+    for _ in range(FAR):
+        if trace is None:
+            return False
+        trace = trace.tb_next
+    return True
 
 
 def _note(found: list[Frame], frame: FrameType, instruction: int) -> None:

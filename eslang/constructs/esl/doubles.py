@@ -9,6 +9,7 @@ Source: ours; the papers tell of no tests.
 from __future__ import annotations
 
 from eslang.base.border import to_lisp, to_python
+from eslang.base.calls import spread
 from eslang.base.failure import simple_error
 from eslang.base.hints import Any, Callable
 from eslang.base.image import Cell
@@ -70,7 +71,7 @@ class Double:
         answer = step.answer if step.answer is not None else self.original
         if answer is None:
             raise simple_error("there is no function behind the double", self.name)
-        return many_of(answer)(*arguments)
+        return spread(many_of(answer), arguments)
 
     def step_for(self, call: int) -> Step | None:
         """The step that answers call number CALL, counted from 1; the last one for all that follow."""

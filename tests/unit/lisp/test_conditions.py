@@ -44,3 +44,9 @@ def test_two_interpreters_have_condition_types_of_their_own() -> None:
         assert one.eval("(typep (make-condition 'arm-stuck) 'arm-stuck)") is True
         with pytest.raises(Failure):
             other.eval("(make-condition 'arm-stuck)")
+
+
+def test_a_condition_shows_itself_to_python() -> None:
+    with Interpreter() as interp, pytest.raises(Failure) as caught:
+        interp.eval('(error "arm ~a" 3)')
+    assert "SIMPLE-ERROR" in repr(caught.value)

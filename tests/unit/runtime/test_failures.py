@@ -163,3 +163,27 @@ def test_no_form_is_left_active_after_a_run(interp: Any) -> None:
             interp.eval(text)
         assert interp.dynamic.forms is None
         assert interp.dynamic.answering == [] and interp.dynamic.catches == []
+
+
+# --- through Python and back -----------------------------------------------------------------
+
+
+@pytest.fixture
+def back(interp: Any) -> Any:
+    """An interpreter in which (back n) calls (down n) from Python."""
+    interp.primitive(lambda n: interp.call("down", n), name="back", signature="(back n)")
+    return interp
+
+
+def test_a_plan_may_call_python_and_python_the_plan_very_deep(back: Any) -> None:
+    back.eval("(defun down (n) (if (= n 0) 0 (+ 1 (back (- n 1)))))")
+    assert back.call("down", 5000) == 5000
+
+
+@pytest.mark.slow
+def test_recursion_without_end_through_python_exhausts_the_stack(back: Any) -> None:
+    back.eval("(defun down (n) (with-cleanup-procedure nil (back n)))")
+    assert back.eval("(with-recovery-procedures ((:stack-exhausted (abort 7))) (down 1))") == 7
+    with pytest.raises(Failure) as caught:
+        back.call("down", 1)
+    assert str(caught.value.cause) == ":STACK-EXHAUSTED"
