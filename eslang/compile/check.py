@@ -148,6 +148,8 @@ class Checker:
         """There is nothing of that name; the hint tells the nearest name that there is."""
         close = nearest(use.symbol.name, names)
         hint = f"write `{close.lower()}`" if close else None
+        if kind == "variable" and use.symbol.name.startswith("?"):
+            hint = f"write `#{_shown(use.symbol)}` for what this logic variable is bound to"
         return _diagnostic(f"unknown-{kind}", f"there is no {kind} `{_shown(use.symbol)}`", use, hint)
 
     def functions(self) -> list[str]:

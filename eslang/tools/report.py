@@ -68,6 +68,8 @@ def near_name(failure: Failure, interp: Any) -> str | None:
     symbol = failure.values[0]
     if not isinstance(symbol, Symbol):
         return None
+    if symbol.name.startswith("?") and failure.cause is UNBOUND_VARIABLE:
+        return f"write `#{symbol.name.lower()}` for what this logic variable is bound to"
     package = package_with(symbol, interp)
     if package is not None:
         return (

@@ -248,3 +248,8 @@ def test_a_stream_that_was_closed_from_the_start_is_no_trouble(closed: str) -> N
 def test_a_name_that_a_package_does_not_use_is_found_in_another(tmp_path: Path) -> None:
     path = written(tmp_path, "(defpackage :lab (:use :cl))\n(in-package :lab)\n(fail :stuck)\n")
     assert "let package `lab` use `esl`, where this name means something" in run("run", path).err
+
+
+def test_a_logic_variable_without_its_sign_gets_a_hint() -> None:
+    text = "(progn (to-achieve (at ?place) (t (print ?place))) (defun at (place) nil) (achieve (at 1)))"
+    assert "hint  write `#?place` for what this logic variable is bound to" in call(["run", "-e", text]).err
