@@ -29,7 +29,16 @@ from eslang.base.symbols import Symbol, Value
 from eslang.base.text import String
 
 SETF = Symbol.intern("SETF", "COMMON-LISP")
-_EXPECTED = {"car": "LIST", "cdr": "LIST", "items": "VECTOR", "text": "STRING", "char": "CHARACTER"}
+_EXPECTED = {
+    "car": "LIST",
+    "cdr": "LIST",
+    "items": "VECTOR",
+    "text": "STRING",
+    "char": "CHARACTER",
+    "name": "SYMBOL",
+    "find_variable": "ENVIRONMENT",
+    "find_function": "ENVIRONMENT",
+}
 _OPERATORS = ("unsupported operand", "not supported between", "bad operand type")
 
 
@@ -76,7 +85,7 @@ def _attribute_failure(error: AttributeError) -> Failure:
         if name == "value":
             return unbound_variable(owner.symbol)  # type: ignore[arg-type]
         return undefined_function(lisp_list(SETF, owner.symbol) if name == "setf_function" else owner.symbol)
-    if name in _EXPECTED:
+    if name in _EXPECTED and _raised_here(error):
         return type_error(owner, _EXPECTED[name])
     return python_failure(error)
 

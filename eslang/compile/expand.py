@@ -6,6 +6,7 @@ from eslang.base.control import Failed
 from eslang.base.diagnostics import EslError
 from eslang.base.errors import to_failure
 from eslang.base.failure import Failure
+from eslang.base.failure_text import message_of
 from eslang.base.hints import TYPE_CHECKING, Any, NoReturn
 from eslang.base.image import Image
 from eslang.base.lists import Cons
@@ -13,11 +14,14 @@ from eslang.base.printer import prin1
 from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.core import Variable
+from eslang.compile.registry import CL, ESL, SCS
 from eslang.compile.scope import LocalMacro, Scope, SymbolMacro
+from eslang.compile.signatures import usage
 
 if TYPE_CHECKING:
     from eslang.compile.analyser import Analyser
 
+LANGUAGES = (CL, ESL, SCS)
 MOST = 1000  # expansions inside one another
 
 
@@ -32,7 +36,22 @@ def expand_macro(form: Cons, expander: Any, scope: Scope, analyser: Analyser) ->
         refuse_endless(form, analyser)
     except (Exception, Failed) as wrong:
         failure = wrong.value if isinstance(wrong, Failed) else to_failure(wrong)
+        refuse_shape(form, expander, failure, analyser)
         analyser.fail("macro-failed", f"expanding `{shown(form.car)}` failed: {failure_text(failure)}")
+
+
+def refuse_shape(form: Cons, expander: Any, failure: Failure, analyser: Analyser) -> None:
+    """Say that the form is not written as a macro of the language wants it; nothing for other macros."""
+    cell = analyser.image.cell(form.car)
+    if cell.macro is expander and cell.definition is not None and form.car.package in LANGUAGES:
+        message = message_of(failure).rstrip(".")
+        if message[1:2].islower() or message[1:2] == " ":  # a sentence, not the name of an operator
+            message = message[0].lower() + message[1:]
+        analyser.fail(
+            "malformed-form",
+            f"`{shown(form.car)}` cannot be read: {message}",
+            hint=f"write `{usage(cell.definition)}`",
+        )
 
 
 def refuse_endless(form: Cons, analyser: Analyser) -> NoReturn:

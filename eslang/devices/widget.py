@@ -27,14 +27,14 @@ class Widgets:
 
     def status(self, widget: Any) -> Any:
         """The state of WIDGET: :OK, or how it is broken."""
-        return self.agent.value(STATUS) if widget is None else self.named.get(widget, OK)
+        return self.agent.value(STATUS) if widget is None else self.named.get(key_of(widget), OK)
 
     def change(self, widget: Any, state: Any) -> None:
         """Put WIDGET into STATE."""
         if widget is None:
             self.agent.set_value(STATUS, state)
         else:
-            self.named[widget] = state
+            self.named[key_of(widget)] = state
 
     def say(self, line: str) -> None:
         """Write LINE on a line of its own."""
@@ -102,6 +102,11 @@ class Widgets:
         if self.status(widget) is OK:
             raise Failure("deadlock", "the widget works, and nothing runs that could break it")
         return self.status(widget)
+
+
+def key_of(widget: Any) -> Any:
+    """What a widget is known by here: its name, which may be a list."""
+    return tuple(map(key_of, widget)) if isinstance(widget, list) else widget
 
 
 def install(agent: Interpreter) -> None:

@@ -119,7 +119,7 @@ def macro_function(name: Value, environment: Value = None) -> Value:
 @function("(special-operator-p name)")
 def special_operator_p(name: Value) -> Value:
     """Tell whether NAME is a special form."""
-    return truth(running.session.is_special_form(name))
+    return truth(name is not None and running.session.is_special_form(name))
 
 
 @function("(identity object)")

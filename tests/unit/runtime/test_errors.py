@@ -117,3 +117,27 @@ def test_the_python_error_is_kept_behind_its_failure() -> None:
         with pytest.raises(Failure) as caught:
             interp.eval("(read-sensor)")
     assert isinstance(caught.value.__cause__, OSError)
+
+
+@pytest.mark.parametrize(
+    ("text", "told_as"),
+    [
+        ("(special-operator-p 5)", ":TYPE-ERROR 5 SYMBOL"),
+        ("(macroexpand 'x 5)", ":TYPE-ERROR 5 ENVIRONMENT"),
+        ("(subtypep 5 6)", ":TYPE-ERROR 5 SYMBOL"),
+    ],
+)
+def test_the_languages_own_functions_complain_in_its_words(text: str, told_as: str) -> None:
+    assert told(run(text).failure) == told_as
+
+
+def test_an_attribute_error_of_python_code_is_not_taken_for_one_of_the_plan() -> None:
+    with Interpreter(clock="virtual", output=StringIO()) as interp:
+
+        @interp.primitive
+        def read_sensor() -> Any:
+            return object().name  # type: ignore[attr-defined]
+
+        with pytest.raises(Failure) as caught:
+            interp.eval("(read-sensor)")
+    assert str(caught.value.cause) == ":PYTHON-ERROR"
