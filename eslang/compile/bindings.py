@@ -20,7 +20,13 @@ from eslang.compile.core import (
     Several,
     Variable,
 )
-from eslang.compile.core_forms import SPECIAL_NAME, declare_specials, declared, split_body
+from eslang.compile.core_forms import (
+    SPECIAL_NAME,
+    declare_specials,
+    declared,
+    refuse_not_offered,
+    split_body,
+)
 from eslang.compile.registry import special_form
 from eslang.compile.scope import SPECIAL, Scope, SymbolMacro
 
@@ -30,6 +36,7 @@ def is_special(analyser: Analyser, symbol: Symbol, specials: set[Symbol]) -> boo
     cell = analyser.image.cell(symbol)
     if cell.constant:
         analyser.fail("constant-assignment", f"`{shown(symbol)}` is a constant and cannot be bound")
+    refuse_not_offered(analyser, symbol)
     return symbol in specials or cell.special
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from eslang.base.lists import Cons, items
 from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, T, Value
+from eslang.base.words import VARIABLES_NOT_OFFERED
 from eslang.compile.analyser import Analyser
 from eslang.compile.core import (
     Block,
@@ -207,8 +208,15 @@ def assignment(analyser: Analyser, symbol: Symbol, holder: Cons, scope: Scope) -
     if analyser.image.cell(symbol).constant:
         analyser.fail("constant-assignment", f"`{shown(symbol)}` is a constant and cannot be set")
     if found is None:
+        refuse_not_offered(analyser, symbol)
         analyser.use("assignment", symbol, None, symbol, scope)
     return SetGlobal(analyser.span, symbol, value)
+
+
+def refuse_not_offered(analyser: Analyser, symbol: Symbol) -> None:
+    """Fail for a variable of the standard that is not offered, unless the program has made one."""
+    if symbol.name in VARIABLES_NOT_OFFERED and not analyser.image.cell(symbol).special:
+        analyser.fail("unknown-variable", f"`{shown(symbol)}` of Common Lisp is not offered here")
 
 
 # --- declarations ------------------------------------------------------------------
