@@ -85,6 +85,20 @@ def given(variable: Variable, value: Node) -> Variable:
     return variable
 
 
+def refuse_twice(analyser: Analyser, bindings: list[tuple[Symbol, Cons]]) -> None:
+    """Fail if LET binds a variable twice."""
+    names: set[Symbol] = set()
+    for symbol, holder in bindings:
+        if symbol in names:
+            analyser.fail(
+                "malformed-binding",
+                f"`let` binds `{shown(symbol)}` twice",
+                analyser.spans.element(holder),
+                hint="give one of them another name, or write `let*`",
+            )
+        names.add(symbol)
+
+
 @special_form("(let bindings &body forms)")
 def let(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     """Run FORMS with BINDINGS, all computed before any is bound."""
@@ -94,6 +108,7 @@ def let(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     lexical: list[tuple[Variable, Node]] = []
     dynamic: list[tuple[Symbol, Node]] = []
     bindings = bindings_of(analyser, form.cdr.car, "let")
+    refuse_twice(analyser, bindings)
     values = [analyser.nodes(Cons(holder.car, None), scope)[0] for _, holder in bindings]
     any_dynamic = any(is_special(analyser, symbol, specials) for symbol, _ in bindings)
     for (symbol, _), value in zip(bindings, values, strict=True):
