@@ -19,6 +19,7 @@ from eslang.base.failure import UNBOUND_VARIABLE, Failure
 from eslang.base.hints import TYPE_CHECKING, Any, Callable, F, Iterable, Iterator, overload
 from eslang.base.image import PACKAGE, Image
 from eslang.base.many import values_list
+from eslang.base.packages import Package
 from eslang.base.printer import prin1
 from eslang.base.resolve import resolve_in
 from eslang.base.running import running, to_function
@@ -209,19 +210,23 @@ class Interpreter:
 
     # --- the embedder's doors --------------------------------------------------
 
-    def load(self, path: str | PathLike[str]) -> None:
-        """Load a file of forms. Raises Failure, EslError, OSError."""
+    def load(self, path: str | PathLike[str]) -> Package:
+        """Load a file; the package that was current at its end. Raises Failure, EslError, OSError."""
         with self.door():
-            self.load_file(str(path), run_task)
+            return self.load_file(str(path), run_task)
 
-    def load_file(self, path: str, run: Callable[[Any], Value]) -> None:
-        """Load a file, its forms run by RUN. *PACKAGE* and *LOAD-PATHNAME* are as before afterwards."""
+    def load_file(self, path: str, run: Callable[[Any], Value]) -> Package:
+        """Load a file, its forms run by RUN; the package that was current at its end.
+
+        *PACKAGE* and *LOAD-PATHNAME* are as before afterwards.
+        """
         source = decode(file_bytes(path), path)
         cells = self.image.cell(PACKAGE), self.image.cell(LOAD_PATHNAME)
         before = [cell.value for cell in cells]
         cells[1].value = String(path)
         try:
             self.texts.load(source, run)
+            return self.image.package
         finally:
             for cell, value in zip(cells, before, strict=True):
                 cell.value = value

@@ -42,14 +42,20 @@ def _name(analyser: Analyser, form: Cons, what: str) -> Symbol:
             f"`{shown(name)}` is a special form and cannot be redefined",
             analyser.spans.element(form.cdr),
         )
-    if what != "variable" and analyser.image.is_fixed(name):
+    if what != "variable":
+        _check_free(analyser, form, name)
+    return name
+
+
+def _check_free(analyser: Analyser, form: Cons, name: Symbol) -> None:
+    """Fail if NAME, which FORM defines, is an operator of Common Lisp."""
+    if analyser.image.is_fixed(name):
         analyser.fail(
             "redefined-standard-name",
             f"`{shown(name)}` is an operator of Common Lisp and cannot be redefined",
             analyser.spans.element(form.cdr),
             hint="choose another name, or shadow this one in a package of your own",
         )
-    return name
 
 
 def _record(analyser: Analyser, signature: str, documentation: str | None) -> list[Node]:
@@ -69,6 +75,8 @@ def defun(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     """
     setf = setf_name(form.cdr.car)
     name = setf or _name(analyser, form, "function")
+    if setf is not None:
+        _check_free(analyser, form, setf)
     title = prin1(form.cdr.car).lower()
     around, analyser.definition = analyser.definition, f"`{title}`"
     lst, forms = form.cdr.cdr.car, form.cdr.cdr.cdr

@@ -11,6 +11,7 @@ from eslang.base.hints import TYPE_CHECKING, Any, NoReturn
 from eslang.base.image import Image
 from eslang.base.lists import Cons
 from eslang.base.printer import prin1
+from eslang.base.running import running
 from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.core import Variable
@@ -29,7 +30,7 @@ def expand_macro(form: Cons, expander: Any, scope: Scope, analyser: Analyser) ->
     """The expansion of FORM; what goes wrong in the expander is an error of the program."""
     analyser.expanders.append(expander)
     try:
-        return expander(form, scope)
+        return _run_quietly(expander, form, scope)
     except EslError:
         raise
     except RecursionError:
@@ -38,6 +39,17 @@ def expand_macro(form: Cons, expander: Any, scope: Scope, analyser: Analyser) ->
         failure = wrong.value if isinstance(wrong, Failed) else to_failure(wrong)
         refuse_shape(form, expander, failure, analyser)
         analyser.fail("macro-failed", f"expanding `{shown(form.car)}` failed: {failure_text(failure)}")
+
+
+def _run_quietly(expander: Any, form: Cons, scope: Scope) -> Value:
+    """Run an expander: nobody is told of its failures, and no recovery procedure of a plan answers them."""
+    dynamic, hooks = running.session.dynamic, running.session.hooks
+    forms, listeners = dynamic.forms, hooks.listeners
+    dynamic.forms, hooks.listeners = None, []
+    try:
+        return expander(form, scope)
+    finally:
+        dynamic.forms, hooks.listeners = forms, listeners
 
 
 def refuse_shape(form: Cons, expander: Any, failure: Failure, analyser: Analyser) -> None:
@@ -55,8 +67,8 @@ def refuse_shape(form: Cons, expander: Any, failure: Failure, analyser: Analyser
 
 
 def refuse_endless(form: Cons, analyser: Analyser) -> NoReturn:
-    """Say that the macro of FORM expands into itself for ever."""
-    analyser.fail("nested-too-deep", f"expanding `{shown(form.car)}` does not come to an end")
+    """Say that the macro of FORM expands into itself for ever, or that too many stand inside one another."""
+    analyser.fail("nested-too-deep", f"expanding `{shown(form.car)}` comes to no end within {MOST} steps")
 
 
 def failure_text(failure: Failure) -> str:

@@ -36,26 +36,24 @@ def run(chosen: Chosen) -> int:
 
 def plan(interp: Any, chosen: Chosen) -> None:
     """Load the files, then evaluate the forms of -e, or else call MAIN."""
-    before = main_function(interp)
+    main = None
     for path in chosen.words:
-        load(interp, path)
+        main = main_function(interp, load(interp, path)) or main
     for text in chosen.all("e"):
         evaluate_text(interp, text)
-    if not chosen.has("e"):
-        main = main_function(interp)
-        if main is not None and main is not before:
-            interp.call("main")
+    if main is not None and not chosen.has("e"):
+        interp.call(main)
 
 
-def load(interp: Any, path: str) -> None:
-    """Load the file PATH; `-` is standard input."""
+def load(interp: Any, path: str) -> Any:
+    """Load the file PATH, `-` for standard input; the package that was current at its end."""
     if path != "-":
-        interp.load(path)
-        return
+        return interp.load(path)
     from eslang.tools.conversation import source_of
 
     for reading in interp.readings(source_of(sys.stdin.read(), "<stdin>")):
         interp.evaluate(reading)
+    return interp.image.package
 
 
 def evaluate_text(interp: Any, text: str) -> None:
@@ -70,10 +68,10 @@ def evaluate_text(interp: Any, text: str) -> None:
                 interp.output.write(shown(value) + "\n")
 
 
-def main_function(interp: Any) -> Any:
-    """The function MAIN of the current package; None if there is none."""
-    symbol, found = interp.image.package.find("MAIN")
-    return getattr(interp.image.cell(symbol), "function", None) if found else None
+def main_function(interp: Any, package: Any) -> Any:
+    """The name MAIN in PACKAGE, where a file ended, if it names a function; else None."""
+    symbol, found = package.find("MAIN")
+    return symbol if found and hasattr(interp.image.cell(symbol), "function") else None
 
 
 def outcome(interp: Any, work: Callable[[], None]) -> int:

@@ -45,6 +45,15 @@ def test_files_are_loaded_in_order_and_main_is_called_once(tmp_path: Path) -> No
     assert call(["run", first, second]).out.split() == ["1", "2", ":FIRST"]
 
 
+def test_main_is_found_in_the_package_in_which_its_file_ends(tmp_path: Path) -> None:
+    own = written(
+        tmp_path, "(defpackage :robot (:use :cl)) (in-package :robot) (defun main () (print :robot))"
+    )
+    assert call(["run", own]).out.split() == [":ROBOT"]
+    user = written(tmp_path, "(defun main () (print :user))", "user.esl")
+    assert call(["run", own, user]).out.split() == [":USER"]
+
+
 def test_a_dash_is_standard_input() -> None:
     assert call(["run", "-"], stdin="(princ :from-stdin)\n(defun main () (terpri))") == Ended(
         0, "FROM-STDIN\n", ""
