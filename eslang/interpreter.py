@@ -26,6 +26,7 @@ from eslang.base.running import running, to_function
 from eslang.base.spans import Source, Spans
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import String
+from eslang.base.words import SPECIAL_FORMS
 from eslang.compile.registry import DEFINITIONS, Definition
 from eslang.compile.support import SUPPORT
 from eslang.devices import widget
@@ -158,15 +159,10 @@ class Interpreter:
                     self.image.special_forms[symbol] = definition
                     if self.image.cell(symbol).definition is None:
                         self.image.cell(symbol).definition = definition
-                    if not symbol.name.startswith("%"):
-                        self.image.packages[definition.package].export(symbol.name)
 
-    def is_special_form(self, symbol: Value) -> bool:
+    def is_special_form(self, symbol: Symbol) -> bool:
         """True if SYMBOL names a special form."""
-        return any(
-            d.kind == "special form" and d.name == symbol.name and d.package == symbol.package
-            for d in DEFINITIONS
-        )
+        return symbol.package == "COMMON-LISP" and symbol.name in SPECIAL_FORMS
 
     # --- running ---------------------------------------------------------------
 

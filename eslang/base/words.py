@@ -1,6 +1,6 @@
 """Symbols of Common Lisp that name no function and no variable.
 
-Words of lambda lists, declarations and types: a program that uses COMMON-LISP
+Words of lambda lists, declarations, types and special forms: a program that uses COMMON-LISP
 means these very symbols by them, so they are external from the start. What
 names a function or a variable becomes external where that is defined.
 """
@@ -56,6 +56,16 @@ _VARIABLES = """
 """
 VARIABLES_NOT_OFFERED = frozenset(_VARIABLES.split())
 
-_GROUPS = (LAMBDA_LIST_KEYWORDS, DECLARATIONS, TYPES, CLASSES, DOCUMENTATION_KINDS)
+# Their functions come with the compiler, which a plan that was compiled before does without; the
+# words mean the same with it and without it.
+_SPECIAL_FORMS = """
+    AND BLOCK CATCH COND DECLARE DEFCONSTANT DEFMACRO DEFPARAMETER DEFUN DEFVAR DESTRUCTURING-BIND EVAL-WHEN
+    FLET FUNCALL FUNCTION GO IF IN-PACKAGE LABELS LAMBDA LET LET* LOCALLY MACROLET MULTIPLE-VALUE-BIND
+    MULTIPLE-VALUE-CALL MULTIPLE-VALUE-PROG1 OR PROGN PROGV QUASIQUOTE QUOTE RETURN-FROM SETQ
+    SYMBOL-MACROLET TAGBODY THE THROW UNLESS UNWIND-PROTECT VALUES WHEN
+"""
+SPECIAL_FORMS = frozenset(_SPECIAL_FORMS.split())
+
+_GROUPS = (LAMBDA_LIST_KEYWORDS, DECLARATIONS, TYPES, CLASSES, DOCUMENTATION_KINDS, _SPECIAL_FORMS)
 
 STANDARD_WORDS = tuple(word for group in _GROUPS for word in group.split())

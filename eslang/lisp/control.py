@@ -119,6 +119,8 @@ def macro_function(name: Value, environment: Value = None) -> Value:
 @function("(special-operator-p name)")
 def special_operator_p(name: Value) -> Value:
     """Tell whether NAME is a special form."""
+    if name is not None and not isinstance(name, Symbol):
+        raise type_error(name, "SYMBOL")
     return truth(name is not None and running.session.is_special_form(name))
 
 

@@ -132,7 +132,9 @@ def _place_of(name: Value, operator: str) -> tuple[Cell, str]:
 
 
 def _is_operator(cell: Cell) -> bool:
-    return cell.macro is not None or getattr(cell.definition, "kind", None) == "special form"
+    if cell.symbol is None:
+        return False
+    return cell.macro is not None or running.session.is_special_form(cell.symbol)
 
 
 @function("(fboundp name)")

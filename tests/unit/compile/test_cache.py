@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from eslang import EslError, Interpreter
+from eslang.base.words import SPECIAL_FORMS
 from eslang.compile import cache
 from support import run_python
 
@@ -73,6 +74,28 @@ def test_a_kept_text_is_run_without_the_compiler(folder: Path, tmp_path: Path) -
         "print([module for module in late if module in sys.modules])"
     )
     assert loaded == ":WARM []"
+
+
+INTROSPECTION = """
+(print (list (special-operator-p 'if) (special-operator-p 'car) (fboundp 'let) (fboundp 'nowhere)))
+(print (multiple-value-list (find-symbol "PROGN" :cl)))
+(print (multiple-value-list (find-symbol "BLOCK")))
+(print (eq (read-from-string "unwind-protect") 'cl:unwind-protect))
+(print (eq (intern "TAGBODY") 'cl:tagbody))
+"""
+
+
+def test_special_forms_are_known_without_the_compiler(folder: Path, tmp_path: Path) -> None:
+    path = plan(tmp_path, INTROSPECTION)
+    cold = said(path)
+    assert said(path) == cold
+    assert "(T NIL T NIL)" in cold and "(PROGN :EXTERNAL)" in cold and "(BLOCK :INHERITED)" in cold
+
+
+def test_the_words_for_special_forms_are_all_of_them() -> None:
+    interp = Interpreter(clock="virtual")
+    interp.eval("nil")
+    assert {s.name for s in interp.image.special_forms if not s.name.startswith("%")} == SPECIAL_FORMS
 
 
 def test_a_macro_with_a_memory_is_expanded_at_every_run(folder: Path, tmp_path: Path) -> None:
