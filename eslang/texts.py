@@ -39,11 +39,8 @@ class Texts:
     def load(self, source: Source, run: Run = run_task) -> None:
         """Load a file: from the cache, if it is there. RUN runs each form, as a task unless given."""
         key = cache.digest(self.circumstances, source.name, source.text, self.session.image.package.name)
-        kept = cache.fetch(key)
         self.note(source.text)
-        if kept is not None:
-            for entry in kept:
-                self._run_kept(entry, run)
+        if self._run_kept(key, run):
             return
         before = self.circumstances
         compiler, _ = self._compile(source, run)
@@ -57,10 +54,7 @@ class Texts:
         stats = [(path, os.stat(path)) for path in paths]
         named = [f"{path} {stat.st_size} {stat.st_mtime_ns}" for path, stat in stats]
         key = self.circumstances = cache.digest(cache.fingerprint(), *named)
-        kept = cache.fetch(key)
-        if kept is not None:
-            for entry in kept:
-                self._run_kept(entry)
+        if self._run_kept(key, run_task):
             return
         entries = []
         for path in paths:
@@ -82,8 +76,11 @@ class Texts:
     def _runner(self, load: Callable[[Any], FunctionType], run: Run) -> Callable[[Any], Value]:
         return lambda code: run(load(code))
 
-    def _run_kept(self, kept: cache.Kept, run: Run = run_task) -> None:
-        """Run the top-level forms of a text that was kept."""
-        code = cache.take_up(kept, self.session.image, self.session.support)
-        for form in kept.codes:
-            run(code.load(form))
+    def _run_kept(self, key: str, run: Run) -> bool:
+        """Run the top-level forms of the texts kept under KEY; false if there are none."""
+        texts = cache.fetch(key)
+        for kept in texts or ():
+            code = cache.take_up(kept, self.session.image, self.session.support)
+            for form in kept.codes:
+                run(code.load(form))
+        return texts is not None

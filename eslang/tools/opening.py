@@ -101,7 +101,9 @@ def seed_of(chosen: Chosen) -> int:
     if word is None:
         return 0
     if word == "random":
-        seed = int.from_bytes(os.urandom(4), "big")
+        from eslang.runtime.chance import draw_seed
+
+        seed = draw_seed()
         sys.stderr.write(f"esl: seed {seed}\n")
         return seed
     if not word.lstrip("-").isdecimal():
