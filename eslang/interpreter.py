@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sys
 
-from eslang import prelude
+from eslang import library
 from eslang.base.border import leave, to_lisp, to_python
 from eslang.base.calls import spread
 from eslang.base.control import Stop
@@ -27,19 +27,19 @@ from eslang.base.spans import Source, Spans
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import String
 from eslang.base.words import SPECIAL_FORMS
-from eslang.compile.registry import DEFINITIONS, Definition
+from eslang.compile.registry import Definition
 from eslang.compile.support import SUPPORT
-from eslang.devices import widget
 from eslang.facts.unify import Patterns
 from eslang.lisp.loading import LOAD_PATHNAME
 from eslang.lisp.streams import OutputStream, standard_output
 from eslang.primitives import COMES, make_primitive
+from eslang.runtime import failures
 from eslang.runtime.bindings import Bindings
 from eslang.runtime.chance import make_chance
 from eslang.runtime.clock import make_clock
-from eslang.runtime.failures import Causes, Dynamic, run_task, signal_error
+from eslang.runtime.failures import Causes, Dynamic, run_apart
 from eslang.runtime.hooks import Hooks, Listener
-from eslang.runtime.ticks import Ticks
+from eslang.runtime.runs import Runs
 from eslang.texts import Texts
 
 if TYPE_CHECKING:
@@ -59,7 +59,9 @@ class Interpreter:
 
     seed: of the source of chance. clock: "real", or "virtual", on which time
     jumps. output: a text stream (default: standard output as it is at each
-    writing). listeners: callables that get Event objects.
+    writing). shuffle: let chance choose among the tasks that are ready.
+    outside: `call` waits for signals from outside, rather than report a
+    deadlock. listeners: callables that get Event objects.
     """
 
     def __init__(
@@ -68,6 +70,8 @@ class Interpreter:
         seed: int = 0,
         clock: str = "real",
         output: Any = None,
+        shuffle: bool = False,
+        outside: bool = False,
         listeners: Iterable[Listener] = (),
     ) -> None:
         self.image = Image()
@@ -75,90 +79,39 @@ class Interpreter:
         self.clock = make_clock(clock)
         self._chance: Random | None = None
         self.output = OutputStream(output) if output is not None else standard_output()
-        self.hooks = Hooks(self.clock.now)
         self.bindings = Bindings(self.image)
-        self.dynamic = Dynamic()
+        self.dynamic = Dynamic()  # of the task whose turn it is
         self.causes = Causes()
         self.goals = Patterns()
-        self.ticks = Ticks()
+        self.runs = Runs(self, shuffled=shuffle, is_open=outside)
+        self.scheduler = self.runs.scheduler
+        self.ticks = self.scheduler.ticks
+        self.hooks = Hooks(self.clock.now, lambda: self.scheduler.current)
         self.closed = False
+        self.touched = 0  # how often a plan read what may change by itself
         self._library = True  # what is defined now is the library's
-        self.support = {
-            **SUPPORT,
-            "%bind": self.bindings.bind,
-            "%bind-all": self.bindings.bind_all,
-            "%unbind": self.bindings.unbind,
-            "%signal-error": signal_error,
-            "%ticks": self.ticks,
-        }
+        self.support = {**SUPPORT, **self.bindings.support(), **failures.SUPPORT, "%ticks": self.ticks}
         self.texts = Texts(self)
         sys.setrecursionlimit(max(sys.getrecursionlimit(), DEEPEST))
         with self.at_work():
-            self._install()
+            library.furnish(self)
         self._library = False
         self.image.sealed = True
         self.hooks.listeners.extend(listeners)
 
     # --- what is there from the start ------------------------------------------
 
-    def _install(self) -> None:
-        """Fill the image: the registered names, the prelude, the devices."""
-        prelude.import_rooms()
-        image = self.image
-        image.cell(PACKAGE).value = image.packages["COMMON-LISP"]
-        image.cell(PACKAGE).special = True
-        image.packages["COMMON-LISP"].export(PACKAGE.name)
-        for definition in DEFINITIONS:
-            self._install_definition(definition)
-        self.texts.load_library(prelude.stdlib_files())
-        image.cell(PACKAGE).value = image.packages["ESL-USER"]
-        widget.install(self)
-
-    def _install_definition(self, definition: Definition) -> None:
-        symbol = self.image.packages[definition.package].intern(definition.name)
-        if symbol is None or definition.kind == "special form":
-            return
-        cell = self.image.cell(symbol)
-        made = definition.implementation
-        if definition.kind == "function":
-            if definition.many is not None:
-                made.many = definition.many
-            cell.function = made
-        elif definition.kind == "macro":
-            cell.macro = made
-        else:
-            cell.special = True
-            cell.constant = definition.kind == "constant"
-            cell.value = made() if callable(made) else made
-        if cell.definition is None or definition.kind != "variable":
-            cell.definition = definition
-        self.defined(symbol)
-
     def defined(self, symbol: Symbol) -> None:
-        """Make a name that the library defined external, unless it begins with %."""
-        if (
-            self._library
-            and not symbol.name.startswith("%")
-            and symbol.package in ("COMMON-LISP", "ESL", "SCS")
-        ):
-            self.image.packages[symbol.package].export(symbol.name)
+        """Make a name that the library defined external."""
+        if self._library:
+            library.export(self.image, symbol)
 
     def compiler(self, name: str) -> Compiler:
         """A compiler for one text; the first one brings the special forms along."""
         from eslang.compile.toplevel import Compiler
 
-        if not self.image.special_forms:
-            self._install_special_forms()
+        library.furnish_special_forms(self.image)
         return Compiler(self.image, self.support, name)
-
-    def _install_special_forms(self) -> None:
-        for definition in DEFINITIONS:
-            if definition.kind == "special form":
-                symbol = self.image.packages[definition.package].intern(definition.name)
-                if symbol is not None:
-                    self.image.special_forms[symbol] = definition
-                    if self.image.cell(symbol).definition is None:
-                        self.image.cell(symbol).definition = definition
 
     def is_special_form(self, symbol: Symbol) -> bool:
         """True if SYMBOL names a special form."""
@@ -189,14 +142,16 @@ class Interpreter:
         compiler = compiler or self.compiler(reading.span.source.name)
         with self.at_work():
             self.texts.note(prin1(reading.form))
-            result = compiler.run(
-                reading.form,
-                reading.spans,
-                reading.span,
-                many=True,
-                run=lambda code: run_task(compiler.unit.load(code)),
-            )
-        return values_list(result)
+            return values_list(self.runs.enter(lambda: self._evaluated(reading, compiler)))
+
+    def _evaluated(self, reading: Reading, compiler: Compiler) -> Value:
+        return compiler.run(
+            reading.form,
+            reading.spans,
+            reading.span,
+            many=True,
+            run=lambda code: run_apart(compiler.unit.load(code)),
+        )
 
     def evaluate_form(self, form: Value, *, many: bool = False) -> Value:
         """EVAL: the value of a form, within the task at work."""
@@ -209,7 +164,8 @@ class Interpreter:
     def load(self, path: str | PathLike[str]) -> Package:
         """Load a file; the package that was current at its end. Raises Failure, EslError, OSError."""
         with self.door():
-            return self.load_file(str(path), run_task)
+            package: Package = self.runs.enter(lambda: self.load_file(str(path), run_apart))
+            return package
 
     def load_file(self, path: str, run: Callable[[Any], Value]) -> Package:
         """Load a file, its forms run by RUN; the package that was current at its end.
@@ -217,27 +173,25 @@ class Interpreter:
         *PACKAGE* and *LOAD-PATHNAME* are as before afterwards.
         """
         source = decode(file_bytes(path), path)
-        cells = self.image.cell(PACKAGE), self.image.cell(LOAD_PATHNAME)
-        before = [cell.value for cell in cells]
-        cells[1].value = String(path)
+        self.bindings.bind(self.image.cell(PACKAGE), self.image.package)
+        self.bindings.bind(self.image.cell(LOAD_PATHNAME), String(path))
         try:
             self.texts.load(source, run)
             return self.image.package
         finally:
-            for cell, value in zip(cells, before, strict=True):
-                cell.value = value
+            self.bindings.unbind(2)
 
     def eval(self, text: str, name: str = "<eval>") -> Any:
         """The value of the last form in TEXT, as Python has it. Raises Failure, EslError."""
         with self.door():
-            return to_python(self.texts.run(Source(name, text)))
+            return to_python(self.runs.enter(lambda: self.texts.run(Source(name, text))))
 
     def call(self, name: str | Symbol, *arguments: Any) -> Any:
         """Call a function by name (or a function itself); runs until it ends. Raises Failure."""
         with self.door():
             designator: Any = self.symbol(name) if isinstance(name, str) else name
             values = [to_lisp(argument) for argument in arguments]
-            return to_python(run_task(lambda: spread(to_function(designator), values)))
+            return to_python(self.runs.run(lambda: spread(to_function(designator), values)))
 
     def symbol(self, text: str) -> Symbol | None:
         """The symbol that TEXT names in the current package, as the reader would read it."""
@@ -264,7 +218,12 @@ class Interpreter:
 
     @overload
     def primitive(
-        self, *, name: str | None = ..., signature: str | None = ..., blocking: bool = ...
+        self,
+        *,
+        name: str | None = ...,
+        signature: str | None = ...,
+        blocking: bool = ...,
+        outside: bool = ...,
     ) -> Callable[[F], F]: ...
 
     def primitive(
@@ -274,17 +233,20 @@ class Interpreter:
         name: str | None = None,
         signature: str | None = None,
         blocking: bool = False,
+        outside: bool = True,
     ) -> Any:
         """Make a Python function a Lisp function; name and signature from Python's unless given.
 
         Raising Failure in it is (fail ...); any other error is a :python-error failure.
+        What it gives may change by itself, as a sensor does, unless OUTSIDE is False: a
+        condition that calls it is looked at again and again as real time passes.
         """
 
         if blocking:
             raise NotImplementedError(f"a blocking primitive {COMES}")
 
         def register(made: Any) -> Any:
-            definition = make_primitive(made, name, signature)
+            definition = make_primitive(made, name, signature, outside)
             symbol = self.symbol(definition.name)
             if symbol is None or symbol.package == "COMMON-LISP":
                 raise error_at(
@@ -324,7 +286,7 @@ class Interpreter:
 
         with self.at_work():
             self.compiler("<check>")
-            checker = Checker(self.image, lambda unit, code: run_task(unit.load(code)))
+            checker = Checker(self.image, lambda unit, code: run_apart(unit.load(code)))
             for path in paths:
                 try:
                     source = decode(file_bytes(path), str(path))

@@ -12,6 +12,7 @@ from eslang.base.calls import reenter, spread
 from eslang.base.errors import python_failure
 from eslang.base.failure import WRONG_NUMBER_OF_ARGUMENTS, Failure, simple_error
 from eslang.base.hints import Any
+from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, Value, lisp_name
 from eslang.base.text import String
 from eslang.compile.registry import ESL, Definition
@@ -22,7 +23,7 @@ COROUTINE = 0x80 | 0x200  # what Python marks the code of an `async def` with
 COMES = "needs tasks, which this version of eslang does not have yet"
 
 
-def make_primitive(function: Any, name: str | None, signature: str | None) -> Definition:
+def make_primitive(function: Any, name: str | None, signature: str | None, outside: bool) -> Definition:
     """The definition of a primitive, named and described as asked, or after the Python function."""
     if getattr(getattr(function, "__code__", None), "co_flags", 0) & COROUTINE:
         raise NotImplementedError(f"{function.__name__} is an `async def`; a primitive that waits {COMES}")
@@ -33,11 +34,11 @@ def make_primitive(function: Any, name: str | None, signature: str | None) -> De
     definition = Definition("function", name.upper(), ESL, shown, None)
     definition.documentation = function.__doc__ or ""
     called = name.upper().rpartition(":")[2]
-    definition.implementation = _wrapped(function, called, arity(signature), _positional(signature))
+    definition.implementation = _wrapped(function, called, arity(signature), _positional(signature), outside)
     return definition
 
 
-def _wrapped(function: Any, name: str, expected: Arity, positional: int | None) -> Any:
+def _wrapped(function: Any, name: str, expected: Arity, positional: int | None, outside: bool) -> Any:
     """The Lisp function that calls a Python one across the border."""
 
     def primitive(*arguments: Value) -> Value:
@@ -47,6 +48,7 @@ def _wrapped(function: Any, name: str, expected: Arity, positional: int | None) 
                 Symbol.intern(name, ESL),
                 String(f"takes {expected.phrase()} but {len(arguments)} were given"),
             )
+        running.session.touched += outside
         given = [to_python(argument) for argument in arguments]
         keywords: dict[str, Any] = {}
         if positional is not None:

@@ -15,7 +15,7 @@ from eslang.base.hints import Any, Callable
 from eslang.base.spans import Source
 from eslang.base.symbols import Value
 from eslang.compile import cache
-from eslang.runtime.failures import run_task
+from eslang.runtime.failures import run_apart
 
 Run = Callable[[FunctionType], Value]
 
@@ -36,7 +36,7 @@ class Texts:
         self.note(source.text)
         return self._compile(source)[1]
 
-    def load(self, source: Source, run: Run = run_task) -> None:
+    def load(self, source: Source, run: Run = run_apart) -> None:
         """Load a file: from the cache, if it is there. RUN runs each form, as a task unless given."""
         key = cache.digest(self.circumstances, source.name, source.text, self.session.image.package.name)
         self.note(source.text)
@@ -54,7 +54,7 @@ class Texts:
         stats = [(path, os.stat(path)) for path in paths]
         named = [f"{path} {stat.st_size} {stat.st_mtime_ns}" for path, stat in stats]
         key = self.circumstances = cache.digest(cache.fingerprint(), *named)
-        if self._run_kept(key, run_task):
+        if self._run_kept(key, run_apart):
             return
         entries = []
         for path in paths:
@@ -64,7 +64,7 @@ class Texts:
         if all(entry is not None for entry in entries):
             cache.keep(key, [entry for entry in entries if entry is not None])
 
-    def _compile(self, source: Source, run: Run = run_task) -> tuple[Any, Value]:
+    def _compile(self, source: Source, run: Run = run_apart) -> tuple[Any, Value]:
         """Compile and run a source form by form; its compiler, and the value of the last form."""
         compiler = self.session.compiler(source.name)
         result: Value = None

@@ -30,6 +30,8 @@ def spread(function: Any, arguments: Sequence[Value]) -> Value:
     return reenter(function, arguments)
 
 
+depth = [0]  # how many calls through C the running task has inside one another
+
 if sys.version_info >= (3, 12):
 
     def reenter(function: Any, arguments: Sequence[Value], keywords: dict[str, Any] = NONE) -> Value:
@@ -38,14 +40,13 @@ if sys.version_info >= (3, 12):
 
 else:
     DEEPEST = 1500
-    _depth = [0]
 
     def reenter(function: Any, arguments: Sequence[Value], keywords: dict[str, Any] = NONE) -> Value:
         """Call FUNCTION with any number of arguments; such calls use the C stack on Python 3.11."""
-        if _depth[0] > DEEPEST:
+        if depth[0] > DEEPEST:
             raise RecursionError("too many calls with many arguments inside one another")
-        _depth[0] += 1
+        depth[0] += 1
         try:
             return function(*arguments, **keywords)
         finally:
-            _depth[0] -= 1
+            depth[0] -= 1

@@ -72,6 +72,12 @@ class Failed(Unwind):
         self.failed = True
 
 
+class EndTask(Unwind):
+    """A task was aborted: it leaves everything, with its cleanups. The target is the task."""
+
+    failed = True
+
+
 class Stop(Unwind):
     """The run is to end: Ctrl-C, the time limit, (quit)."""
 

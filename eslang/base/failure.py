@@ -33,6 +33,8 @@ class Failure(Exception):
 
     story: Any = None  # what the runtime noted of it: where, who was asked (runtime/story.py)
     condition: str | None = None  # of :error, the standard condition type that it is
+    origin: Any = None  # the task that failed first, if this was passed on from it
+    report: Any = None  # of :deadlock, who waits for what (runtime/deadlock.py)
     kept: tuple[Any, ...] | None = None  # the arguments as Lisp had them, once outside
 
     def __init__(self, cause: Any, *arguments: Any) -> None:

@@ -8,7 +8,7 @@ variant is compiled when first wanted (compile/variants.py).
 
 from __future__ import annotations
 
-from eslang.base.hints import Any
+from eslang.base.hints import Any, Sequence
 from eslang.base.symbols import Value
 
 
@@ -30,7 +30,7 @@ def primary(result: Value) -> Value:
     return result
 
 
-def pack(values: list[Any]) -> Value:
+def pack(values: Sequence[Any]) -> Value:
     """A result for a many-variant to return."""
     return values[0] if len(values) == 1 else Values(values)
 

@@ -149,7 +149,8 @@ class StatementEmitter(ExpressionEmitter):
 
     def run_protect(self, node: core.Protect, destination: Destination) -> None:
         cleanup = self.closure(node.cleanup)
-        self.guarded(lambda: self.run(node.body, destination), [self.effect(self.call(cleanup, []))])
+        run = self.effect(self.call_support("%clean", cleanup))
+        self.guarded(lambda: self.run(node.body, destination), [run])
 
     # --- blocks ----------------------------------------------------------------
 

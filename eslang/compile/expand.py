@@ -43,13 +43,13 @@ def expand_macro(form: Cons, expander: Any, scope: Scope, analyser: Analyser) ->
 
 def _run_quietly(expander: Any, form: Cons, scope: Scope) -> Value:
     """Run an expander: nobody is told of its failures, and no recovery procedure of a plan answers them."""
-    dynamic, hooks = running.session.dynamic, running.session.hooks
-    forms, listeners = dynamic.forms, hooks.listeners
-    dynamic.forms, hooks.listeners = None, []
+    dynamic = running.session.dynamic
+    forms, quiet = dynamic.forms, dynamic.quiet
+    dynamic.forms, dynamic.quiet = None, True
     try:
         return expander(form, scope)
     finally:
-        dynamic.forms, hooks.listeners = forms, listeners
+        dynamic.forms, dynamic.quiet = forms, quiet
 
 
 def refuse_shape(form: Cons, expander: Any, failure: Failure, analyser: Analyser) -> None:

@@ -91,16 +91,17 @@ class Widgets:
         else:
             self.say("Widget fix didn't work.")
 
-    def monitor_widget(self, widget: Any = None) -> Any:
-        """Wait until WIDGET is broken.
+    def widget_status(self, widget: Any = None) -> Any:
+        """Tell the state of WIDGET.
 
-        Returns: the state that it is in then.
-        Fails:   :deadlock if it works and nothing runs that could break it.
+        Returns: :ok, or how it is broken.
 
-        Source: ESL §4.4.
+        Example:
+            ? (widget-status)
+            :OK
+
+        Source: ours, after ESL §2.3.
         """
-        if self.status(widget) is OK:
-            raise Failure("deadlock", "the widget works, and nothing runs that could break it")
         return self.status(widget)
 
 
@@ -115,4 +116,4 @@ def install(agent: Interpreter) -> None:
     agent.primitive(signature="(esl::operate-widget &optional widget)")(widgets.operate_widget)
     agent.primitive(signature="(esl::break-widget &optional state widget)")(widgets.break_widget)
     agent.primitive(signature="(esl::attempt-widget-fix state &optional widget)")(widgets.attempt_widget_fix)
-    agent.primitive(signature="(esl::monitor-widget &optional widget)")(widgets.monitor_widget)
+    agent.primitive(signature="(esl::widget-status &optional widget)", outside=False)(widgets.widget_status)

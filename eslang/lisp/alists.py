@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from itertools import repeat
 
+from eslang.base.arguments import take_keys
 from eslang.base.failure import simple_error, type_error
 from eslang.base.lists import SUSPICIOUS, Cons, cells, from_items, items
 from eslang.base.many import pack
 from eslang.base.sameness import is_eql
 from eslang.base.symbols import Datum, Value
 from eslang.compile.registry import function
-from eslang.lisp.arguments import take_keys
 from eslang.lisp.matching import Choice, judge_if, judge_item
 
 _TESTS = ("TEST", "TEST-NOT", "KEY")

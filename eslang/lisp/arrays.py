@@ -10,12 +10,12 @@ from __future__ import annotations
 from itertools import product
 from math import prod
 
+from eslang.base.arguments import UNSUPPLIED, check_index, take_keys
 from eslang.base.failure import index_out_of_range, simple_error, type_error
 from eslang.base.lists import Cons, from_items, items
 from eslang.base.symbols import Symbol, T, Value, truth
 from eslang.base.text import CHARACTERS, Array, Character, String, Vector
 from eslang.compile.registry import function, variable
-from eslang.lisp.arguments import UNSUPPLIED, check_index, take_keys
 from eslang.lisp.sequences import elements, is_character_type, text_of
 
 _MAKING = (

@@ -8,13 +8,13 @@ from __future__ import annotations
 from itertools import repeat
 from operator import attrgetter
 
+from eslang.base.arguments import check_index, take_keys
 from eslang.base.failure import type_error
 from eslang.base.hints import Callable
 from eslang.base.lists import SUSPICIOUS, Cons, check_end, from_items, items, lisp_list
 from eslang.base.sameness import is_eql
 from eslang.base.symbols import Value, truth
 from eslang.compile.registry import function
-from eslang.lisp.arguments import check_index, take_keys
 
 function("(list &rest elements)")(lisp_list)
 

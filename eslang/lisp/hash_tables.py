@@ -6,15 +6,15 @@ same program always gives the same trace.
 
 from __future__ import annotations
 
+from eslang.base.arguments import UNSUPPLIED, take_keys
 from eslang.base.failure import simple_error, type_error
+from eslang.base.hashing import KEY_OF, PLAIN, HashTable, equal_key
 from eslang.base.lists import Cons, from_items
 from eslang.base.many import pack
 from eslang.base.running import to_function
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.base.text import Character
 from eslang.compile.registry import function
-from eslang.lisp.arguments import UNSUPPLIED, take_keys
-from eslang.lisp.hashing import KEY_OF, PLAIN, HashTable, equal_key
 from eslang.lisp.predicates import eq, eql, equal, equalp, is_ratio
 
 _TEST_NAMES = {eq: "EQ", eql: "EQL", equal: "EQUAL", equalp: "EQUALP"}

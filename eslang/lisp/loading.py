@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import os
 
+from eslang.base.arguments import UNSUPPLIED, take_keys
 from eslang.base.diagnostics import EslError
 from eslang.base.failure import simple_error, type_error
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, T, Value
 from eslang.base.text import String
 from eslang.compile.registry import function, variable
-from eslang.lisp.arguments import UNSUPPLIED, take_keys
 
 LOAD_PATHNAME = Symbol.intern("*LOAD-PATHNAME*", "COMMON-LISP")
 

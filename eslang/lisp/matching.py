@@ -9,12 +9,12 @@ walkers of the room call a user's predicate without a frame in between:
 from __future__ import annotations
 
 from eslang.base.failure import simple_error
+from eslang.base.hashing import eql_key, equal_key, equalp_key
 from eslang.base.hints import Any, Callable
 from eslang.base.running import to_function
 from eslang.base.sameness import is_eql
 from eslang.base.symbols import Symbol, T, Value
 from eslang.base.text import Character
-from eslang.lisp.hashing import eql_key, equal_key, equalp_key
 from eslang.lisp.predicates import eq, eql, equal, equalp, is_equal, is_equalp
 
 Judge = Callable[[Value], Value]

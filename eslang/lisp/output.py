@@ -6,6 +6,7 @@ which does the work.
 
 from __future__ import annotations
 
+from eslang.base.arguments import UNSUPPLIED, take_keys
 from eslang.base.failure import Failure, type_error
 from eslang.base.image import PACKAGE, Image
 from eslang.base.many import Values
@@ -14,7 +15,6 @@ from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, T, Value, truth
 from eslang.base.text import String
 from eslang.compile.registry import function, variable
-from eslang.lisp.arguments import UNSUPPLIED, take_keys
 from eslang.lisp.characters import check_character, check_radix
 from eslang.lisp.streams import output_stream
 from eslang.lisp.strings import bounds, check_string

@@ -6,6 +6,7 @@ DEFPACKAGE, IN-PACKAGE and DO-SYMBOLS expand into the % functions here.
 
 from __future__ import annotations
 
+from eslang.base.arguments import UNSUPPLIED, take_keys
 from eslang.base.failure import simple_error, type_error
 from eslang.base.hints import Callable
 from eslang.base.image import PACKAGE, Image
@@ -16,7 +17,6 @@ from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.base.text import String
 from eslang.compile.registry import function
-from eslang.lisp.arguments import UNSUPPLIED, take_keys
 from eslang.lisp.predicates import is_symbol
 from eslang.lisp.strings import check_string, text_of
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from types import FunctionType
 
+from eslang.base.hashing import equalp_key
 from eslang.base.lists import Cons
 from eslang.base.packages import Package
 from eslang.base.sameness import is_eq, is_eql
 from eslang.base.symbols import Keyword, Symbol, Value, truth
 from eslang.base.text import Array, Character, String, Vector
 from eslang.compile.registry import function
-from eslang.lisp.hashing import equalp_key
 
 
 def _is_equal_atom(a: Value, b: Value) -> bool:

@@ -7,6 +7,7 @@ the same reason #. is refused.
 
 from __future__ import annotations
 
+from eslang.base.arguments import take_keys
 from eslang.base.diagnostics import EslError, IncompleteInput
 from eslang.base.failure import Failure, simple_error
 from eslang.base.hints import NamedTuple
@@ -14,7 +15,6 @@ from eslang.base.many import Values
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, T, Value
 from eslang.compile.registry import function, variable
-from eslang.lisp.arguments import take_keys
 from eslang.lisp.stream_input import at_end
 from eslang.lisp.streams import InputStream, input_stream
 from eslang.lisp.strings import bounds, check_string

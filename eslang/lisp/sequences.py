@@ -7,13 +7,13 @@ a Lisp function.
 
 from __future__ import annotations
 
+from eslang.base.arguments import check_index, take_keys
 from eslang.base.failure import index_out_of_range, simple_error, type_error
 from eslang.base.hints import Callable, Iterable, Iterator
 from eslang.base.lists import SUSPICIOUS, Cons, cells, check_end, from_items, items
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import CHARACTERS, Character, String, Vector
 from eslang.compile.registry import function
-from eslang.lisp.arguments import check_index, take_keys
 from eslang.lisp.conses import nreconc, revappend
 from eslang.lisp.types import expand_type
 

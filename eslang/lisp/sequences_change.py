@@ -6,13 +6,13 @@ REMOVE-DUPLICATES; DELETE and the N-variants may reuse what they are given.
 
 from __future__ import annotations
 
+from eslang.base.arguments import take_keys
 from eslang.base.failure import type_error
 from eslang.base.hints import Any
 from eslang.base.lists import Cons
 from eslang.base.symbols import Value
 from eslang.base.text import Vector
 from eslang.compile.registry import function
-from eslang.lisp.arguments import take_keys
 from eslang.lisp.matching import Agreement, agreement, hash_key, keyed
 from eslang.lisp.sequences import elements, length, like, limits, section, store
 from eslang.lisp.sequences_search import Chosen, by_item, by_predicate

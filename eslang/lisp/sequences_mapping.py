@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from eslang.base.arguments import UNSUPPLIED, take_keys
 from eslang.base.calls import spread
 from eslang.base.hints import Any
 from eslang.base.running import to_function
 from eslang.base.symbols import Value, truth
 from eslang.base.text import Vector
 from eslang.compile.registry import function
-from eslang.lisp.arguments import UNSUPPLIED, take_keys
 from eslang.lisp.matching import keyed
 from eslang.lisp.sequences import build, elements, length, section, store, walk
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from eslang.base.arguments import take_keys
 from eslang.base.symbols import Value
 from eslang.base.text import Character, String
 from eslang.compile.registry import function
-from eslang.lisp.arguments import take_keys
 from eslang.lisp.matching import Choice, agreement, judge_if, judge_item, keyed
 from eslang.lisp.sequences import elements, limits, section, walk
 

@@ -7,11 +7,11 @@ in the order of < or >.
 
 from __future__ import annotations
 
+from eslang.base.arguments import take_keys
 from eslang.base.hints import Any
 from eslang.base.running import to_function
 from eslang.base.symbols import Value
 from eslang.compile.registry import function
-from eslang.lisp.arguments import take_keys
 from eslang.lisp.matching import keyed
 from eslang.lisp.sequences import build, elements, store
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from itertools import repeat
 
+from eslang.base.arguments import take_keys
 from eslang.base.failure import type_error
 from eslang.base.hints import Callable
 from eslang.base.lists import SUSPICIOUS, Cons, cells, from_items, items
 from eslang.base.symbols import Datum, Value, truth
 from eslang.compile.registry import function
-from eslang.lisp.arguments import take_keys
 from eslang.lisp.matching import Choice, agreement, hash_key, judge_if, judge_item, keyed
 
 _TESTS = ("TEST", "TEST-NOT", "KEY")

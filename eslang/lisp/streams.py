@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import sys
 
+from eslang.base.arguments import take_keys
 from eslang.base.failure import simple_error, type_error
 from eslang.base.hints import Any, Callable
 from eslang.base.running import running
 from eslang.base.symbols import Datum, Symbol, T, Value, truth
 from eslang.base.text import String
 from eslang.compile.registry import function, variable
-from eslang.lisp.arguments import take_keys
 from eslang.lisp.strings import bounds, check_string
 from eslang.lisp.types import define_simple_type
 

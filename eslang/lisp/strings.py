@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import operator
 
+from eslang.base.arguments import take_keys
 from eslang.base.failure import Failure, index_out_of_range, simple_error, type_error
 from eslang.base.hints import Callable
 from eslang.base.lists import Cons, items
@@ -16,7 +17,6 @@ from eslang.base.number_text import digits_value
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.base.text import Character, String, Vector, character
 from eslang.compile.registry import function
-from eslang.lisp.arguments import take_keys
 from eslang.lisp.characters import check_character, check_radix, digit_weight, folded, has_case
 from eslang.lisp.numbers import check_integer
 

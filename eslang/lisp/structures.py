@@ -7,14 +7,14 @@ and compiles the constructors.
 
 from __future__ import annotations
 
+from eslang.base.arguments import UNSUPPLIED, take_keys
 from eslang.base.failure import TYPE_ERROR, Failure, simple_error
+from eslang.base.hashing import STRUCTURED
 from eslang.base.hints import Any, Callable
 from eslang.base.lists import items
 from eslang.base.sharing import Part
 from eslang.base.symbols import Datum, Symbol, Value, truth
 from eslang.compile.registry import function
-from eslang.lisp.arguments import UNSUPPLIED, take_keys
-from eslang.lisp.hashing import STRUCTURED
 from eslang.lisp.streams import StringOutputStream
 from eslang.lisp.types import LINE_OF, NAME_OF, Type, define_simple_type, define_type, find_type
 

@@ -6,11 +6,11 @@ as deep as memory allows.
 
 from __future__ import annotations
 
+from eslang.base.arguments import UNSUPPLIED, take_keys
 from eslang.base.hints import Callable
 from eslang.base.lists import Cons, items
 from eslang.base.symbols import Value, truth
 from eslang.compile.registry import function
-from eslang.lisp.arguments import UNSUPPLIED, take_keys
 from eslang.lisp.conses import car
 from eslang.lisp.matching import Choice, agreement, judge_if, judge_item
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from eslang.base.calls import spread
 from eslang.base.failure import simple_error
+from eslang.base.hashing import HashTable
 from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.lists import Cons, from_items, items
 from eslang.base.packages import Package
@@ -16,7 +17,6 @@ from eslang.base.sameness import is_eql
 from eslang.base.symbols import Keyword, Symbol, T, Value, truth
 from eslang.base.text import Array, Character, String, Vector
 from eslang.compile.registry import function
-from eslang.lisp.hashing import HashTable
 from eslang.lisp.predicates import (
     is_array,
     is_function,

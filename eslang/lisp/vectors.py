@@ -5,11 +5,11 @@ A string's fill pointer is its length: what it hides is forgotten.
 
 from __future__ import annotations
 
+from eslang.base.arguments import check_index
 from eslang.base.failure import index_out_of_range, simple_error, type_error
 from eslang.base.symbols import Value, truth
 from eslang.base.text import CHARACTERS, Character, String, Vector
 from eslang.compile.registry import function
-from eslang.lisp.arguments import check_index
 
 
 def _check_fill(array: Value, operator: str) -> None:

@@ -9,7 +9,7 @@ unwound (`signal_error`), so a procedure runs before anything is undone.
 from __future__ import annotations
 
 from eslang.base.calls import spread
-from eslang.base.control import Abort, AbortNow, Failed, Retry, RetryNow, Stop, Unwind
+from eslang.base.control import Abort, AbortNow, EndTask, Failed, Retry, RetryNow, Stop, Unwind
 from eslang.base.errors import to_failure
 from eslang.base.failure import (
     CONTROL_ERROR,
@@ -26,7 +26,7 @@ from eslang.base.failure import (
     Failure,
     control_error,
 )
-from eslang.base.hints import Any, Callable, NamedTuple, NoReturn
+from eslang.base.hints import Any, Callable, Iterator, NamedTuple, NoReturn
 from eslang.base.running import running
 from eslang.base.stack import STACK
 from eslang.base.symbols import Value
@@ -76,7 +76,7 @@ class Jumps(list[Unwind]):
 class Dynamic:
     """What the running task has on its stack for failures to meet."""
 
-    __slots__ = ("answering", "catches", "forms", "jumps", "logical")
+    __slots__ = ("answering", "catches", "forms", "held", "jumps", "logical", "masked", "quiet")
 
     def __init__(self) -> None:
         self.forms: Form | None = None
@@ -84,6 +84,9 @@ class Dynamic:
         self.catches: list[tuple[Value, Any]] = []  # (tag, token), innermost last
         self.jumps = Jumps()
         self.logical: dict[Value, Value] = {}  # what logic variables are bound to
+        self.held = 0  # cleanups that are under way: interrupts from outside them wait
+        self.masked = 0  # WITHOUT-INTERRUPTS forms that are under way
+        self.quiet = False  # a macro is being expanded: nobody is told of its failures
 
 
 class Causes:
@@ -152,7 +155,7 @@ def answer(failure: Failure, continuable: bool) -> Value:
             ):
                 continue
             form.used[index] = used + 1
-            if session.hooks.listeners:
+            if session.hooks.listeners and not dynamic.quiet:
                 left = None if limit is None else limit - used - 1
                 session.hooks.tell("recovery", as_place(place), failure=failure, left=left)
             procedure, arguments = form.procedures[index], failure.arguments
@@ -179,7 +182,7 @@ def answer(failure: Failure, continuable: bool) -> Value:
 def give_up(session: Any, failure: Failure, innermost: Form | None) -> NoReturn:
     """Nothing answers FAILURE: tell its story, and leave the task."""
     failure.story = tell_story(failure, innermost, session.causes)
-    if session.hooks.listeners:
+    if session.hooks.listeners and not session.dynamic.quiet:
         session.hooks.tell("failure", failure.story.place, failure=failure)
     raise Failed(failure)
 
@@ -216,7 +219,9 @@ def run_form(
     body: Callable[[], Value],
 ) -> Value:
     """Run BODY while PROCEDURES, one for each of CLAUSES, answer its failures; again after each (retry)."""
-    dynamic: Dynamic = running.session.dynamic
+    session = running.session
+    dynamic: Dynamic = session.dynamic
+    rounds: Iterator[None] = session.ticks.source
     outer = form.outer = dynamic.forms
     form.clauses = clauses
     form.procedures = procedures
@@ -239,6 +244,7 @@ def run_form(
                 if jump.target is not form:
                     raise
                 return jump.value
+            next(rounds)  # a retry counts as the round of a loop
     finally:
         form.live = False
         dynamic.forms = outer
@@ -246,7 +252,7 @@ def run_form(
             STACK.give_back()
 
 
-def _guarded(body: Callable[[], Value]) -> Value:
+def guarded(body: Callable[[], Value]) -> Value:
     """The value of BODY; a Python error becomes a failure at this edge."""
     try:
         return body()
@@ -269,33 +275,53 @@ def abort(form: Form, result: Value) -> None:
 
 
 def run_with_cleanup(body: Callable[[], Value], cleanup: Callable[[], Value]) -> Value:
-    """Run BODY; if it is left because it failed, run CLEANUP on the way out."""
+    """Run BODY; if it is left because it failed, run CLEANUP on the way out.
+
+    What ends a task, and the failure that came first, are stronger than what
+    CLEANUP does: its own failure is told, and then forgotten.
+    """
     dynamic: Dynamic = running.session.dynamic
     outer = dynamic.forms
     try:
-        return _guarded(body)
+        return guarded(body)
     except Unwind as jump:
         if jump.failed:
             dynamic.forms = outer
-            ticks = running.session.ticks
-            ticks.held += 1
             try:
-                _guarded(cleanup)
-            except Unwind:
-                if jump.__class__ is not Stop:  # what cleanup does cannot keep a run that is to end
+                clean(cleanup)
+            except Unwind as second:
+                if not is_stronger(jump, second):
                     raise
-            finally:
-                ticks.held -= 1
         raise
 
 
-def run_task(body: Callable[[], Value]) -> Value:
-    """Run BODY as a task of its own: what nothing answers is raised as the Failure it is."""
+def is_stronger(jump: Unwind, second: Unwind) -> bool:
+    """True if JUMP goes on although a cleanup that it passed ended with a SECOND one."""
+    if isinstance(jump, EndTask | Stop):
+        return not isinstance(second, EndTask | Stop) or second.__class__ is jump.__class__
+    return jump.__class__ is Failed and second.__class__ is Failed
+
+
+def clean(cleanup: Callable[[], Value]) -> Value:
+    """Run CLEANUP, which interrupts from outside it must wait for."""
+    dynamic: Dynamic = running.session.dynamic
+    dynamic.held += 1
+    try:
+        return guarded(cleanup)
+    finally:
+        dynamic.held -= 1
+
+
+SUPPORT = {"%signal-error": signal_error, "%clean": clean}  # what compiled code calls
+
+
+def run_apart(body: Callable[[], Value]) -> Value:
+    """Run BODY with nothing around it that answers; a failure that it does not answer is raised as such."""
     dynamic: Dynamic = running.session.dynamic
     saved, dynamic.forms = dynamic.forms, None
     catches, dynamic.catches = dynamic.catches, []
     try:
-        return _guarded(body)
+        return guarded(body)
     except Failed as jump:
         failure = jump.value
     finally:
@@ -303,7 +329,7 @@ def run_task(body: Callable[[], Value]) -> Value:
         if STACK.raised:
             STACK.give_back()
     hooks = running.session.hooks
-    if hooks.listeners:
+    if hooks.listeners and not dynamic.quiet:
         hooks.tell("aborted", None, failure=failure)
     raise failure
 

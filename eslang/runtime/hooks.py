@@ -25,14 +25,15 @@ Listener = Callable[[Event], object]
 class Hooks:
     """The listeners of one interpreter."""
 
-    __slots__ = ("listeners", "now")
+    __slots__ = ("current", "listeners", "now")
 
-    def __init__(self, now: Callable[[], float]) -> None:
+    def __init__(self, now: Callable[[], float], current: Callable[[], Any]) -> None:
         self.listeners: list[Listener] = []
         self.now = now
+        self.current = current  # the task whose turn it is
 
-    def tell(self, kind: str, form: Any = None, task: Any = None, **data: Any) -> None:
+    def tell(self, kind: str, form: Any = None, **data: Any) -> None:
         """Tell every listener. Callers ask `if hooks.listeners` first where it must cost nothing."""
-        event = Event(kind, self.now(), task, form, data)
+        event = Event(kind, self.now(), self.current(), form, data)
         for listener in list(self.listeners):
             listener(event)

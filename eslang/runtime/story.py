@@ -101,6 +101,22 @@ def capture_stack(error: BaseException | None = None) -> tuple[Frame, ...]:
     return tuple(found)
 
 
+def nearest_place(frame: FrameType | None) -> Place | None:
+    """The place where the innermost plan that FRAME is within stands."""
+    while frame is not None:
+        if is_lisp(frame):
+            place = place_of(frame.f_code, frame.f_lasti)
+            if place is not None:
+                return place
+        frame = frame.f_back
+    return None
+
+
+def place_here() -> Place | None:
+    """The place where the running plan stands."""
+    return nearest_place(sys._getframe(1))
+
+
 def has_come_far(error: BaseException) -> bool:
     """True if ERROR has passed so many frames that to look at them at each border would take too long."""
     trace: TracebackType | None = error.__traceback__

@@ -40,7 +40,7 @@ class Interrupts:
         if self.limit is not None:
             signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGINT, self._before)
-        self.interp.ticks.forget()  # a request that came too late for what ran
+        self.interp.ticks.take()  # a request that came too late for what ran
 
     def _on_interrupt(self, number: int, frame: FrameType | None) -> None:
         self._ask("interrupted", INTERRUPTED)

@@ -179,14 +179,20 @@ class RecoveryClause:
 
 
 def refuse(
-    environment: Scope | None, name: str, message: str, holder: Cons, label: str = "", hint: str | None = None
+    environment: Scope | None,
+    name: str,
+    message: str,
+    holder: Cons,
+    label: str = "",
+    hint: str | None = None,
+    within: str = "with-recovery-procedures",
 ) -> NoReturn:
-    """Raise the diagnostic of a clause that is not as it should be; it stands in HOLDER's car."""
+    """Raise the diagnostic of a part that is not as it should be, in HOLDER's car, WITHIN a form."""
     if environment is None:
         raise control_error(message)
     spans = environment.analyser.spans
     span = spans.element(holder) or spans.of(holder.car) or spans.of(holder)
-    environment.analyser.fail(name, message, span, label, hint, "(with-recovery-procedures …)")
+    environment.analyser.fail(name, message, span, label, hint, f"({within} …)")
 
 
 def warn_of_unreachable(clauses: list[RecoveryClause], environment: Scope | None) -> None:

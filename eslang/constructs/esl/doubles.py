@@ -67,7 +67,7 @@ class Double:
         if step is None:
             return None
         if step.after:
-            running.session.clock.sleep(step.after)
+            running.session.scheduler.sleep(step.after)
         answer = step.answer if step.answer is not None else self.original
         if answer is None:
             raise simple_error("there is no function behind the double", self.name)

@@ -103,8 +103,7 @@ def define_goal(pattern: Value, methods: Value) -> Value:
 @function("(%achieve condition instance test)", ESL)
 def achieve_function(condition: Value, instance: Value, test: Value) -> Value:
     """Achieve CONDITION, which TEST tells; INSTANCE gives it with its arguments computed."""
-    session = running.session
-    tell = session.hooks.tell
+    tell = running.session.hooks.tell
     if test() is not None:
         tell("goal", None, state="no-action", condition=condition)
         return None

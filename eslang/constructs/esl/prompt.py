@@ -64,7 +64,7 @@ def say_to_prompt(text: String, form: Any) -> Value:
     output.fresh_line()
     output.write(f"{PROMPT}{text.text}\n")
     try:
-        values = values_list(failures.run_task(many_of(form)))
+        values = values_list(failures.run_apart(many_of(form)))
     except Failure:
         return None  # the listeners have been told
     for value in values:

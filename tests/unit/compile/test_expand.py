@@ -26,7 +26,7 @@ def test_nobody_is_told_of_a_failure_in_an_expander() -> None:
     interp = Interpreter(clock="virtual", listeners=[lambda event: heard.append(event.kind)])
     with pytest.raises(EslError):
         interp.eval(f"{BROKEN} (broken 1)")
-    assert heard == []
+    assert [kind for kind in heard if not kind.startswith("task-")] == []
 
 
 def test_no_recovery_procedure_answers_an_expander() -> None:
@@ -34,7 +34,7 @@ def test_no_recovery_procedure_answers_an_expander() -> None:
     heard: list[str] = []
     interp = Interpreter(clock="virtual", listeners=[lambda event: heard.append(event.kind)])
     assert str(interp.eval(text)) == ":ASKED-ONCE"
-    assert heard == ["recovery"]
+    assert [kind for kind in heard if not kind.startswith("task-")] == ["recovery"]
 
 
 def test_an_expansion_without_end_is_refused() -> None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from values import fails
 
+from eslang.base.arguments import UNSUPPLIED, check_index, take_keys
 from eslang.base.symbols import Keyword, T
-from eslang.lisp.arguments import UNSUPPLIED, check_index, take_keys
 
 A, B, ALLOW = Keyword("a"), Keyword("b"), Keyword("allow-other-keys")
 

@@ -131,9 +131,14 @@ def test_retries_are_counted_for_each_entrance_of_a_recursive_form() -> None:
 # --- cleanup -------------------------------------------------------------------------------
 
 
-def test_a_failure_of_a_cleanup_takes_the_place_of_the_one_on_its_way() -> None:
-    text = "(with-cleanup-procedure (fail :second) (fail :first))"
-    assert str(run(text).failure.cause) == ":SECOND"
+def test_a_failure_of_a_cleanup_is_told_and_the_first_one_goes_on() -> None:
+    came = run("(with-cleanup-procedure (fail :second) (fail :first))")
+    assert str(came.failure.cause) == ":FIRST"
+    assert came.trace == [
+        "Failure :FIRST, no recovery available.",
+        "Failure :SECOND, no recovery available.",
+        "Aborted",
+    ]
 
 
 def test_procedures_inside_the_body_do_not_see_what_cleanup_does() -> None:

@@ -135,9 +135,10 @@ def test_events_are_traced_as_json_lines(tmp_path: Path) -> None:
     trace = tmp_path / "trace.jsonl"
     call(["run", "--trace", str(trace), "-e", "(fail :stuck 3)"])
     events = [json.loads(line) for line in trace.read_text(encoding="utf-8").splitlines()]
-    assert [event["kind"] for event in events] == ["failure", "aborted"]
-    assert events[0]["form"] == "-e:1:1"
-    assert events[0]["failure"] == {"cause": ":STUCK", "arguments": [3]}
+    kinds = ["task-started", "failure", "aborted", "task-ended"]
+    assert [event["kind"] for event in events] == kinds
+    assert events[1]["form"] == "-e:1:1"
+    assert events[1]["failure"] == {"cause": ":STUCK", "arguments": [3]}
 
 
 @pytest.mark.slow

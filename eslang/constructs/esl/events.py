@@ -1,0 +1,126 @@
+"""Events (ESL §4.1): what tasks wait for, and signal to one another."""
+
+from __future__ import annotations
+
+from eslang.base.failure import type_error
+from eslang.base.hints import Any
+from eslang.base.lists import Cons, from_items, items, lisp_list
+from eslang.base.many import pack, primary
+from eslang.base.running import running, to_function
+from eslang.base.symbols import Symbol, Value
+from eslang.compile.registry import CL, ESL, function, macro
+from eslang.runtime.events import Event, Wait
+from eslang.runtime.tasks import Task
+
+DEFVAR, QUOTE = (Symbol.intern(name, CL) for name in ("DEFVAR", "QUOTE"))
+MAKE_EVENT = Symbol.intern("MAKE-EVENT", ESL)
+
+
+@function("(make-event &optional name)", ESL)
+def make_event(name: Value = None) -> Event:
+    """Make an event, called NAME where it is shown.
+
+    Example:
+        ? (make-event 'cup-seen)
+        #<EVENT CUP-SEEN>
+
+    Source: ESL §4.1; language reference §4.
+    """
+    return Event(name)
+
+
+@macro("(defevent name &optional documentation)", ESL)
+def defevent(form: Cons, environment: Any) -> Value:
+    """Define the global variable NAME, which holds an event.
+
+    Python code signals it by that name. An event that is there already stays.
+
+    Returns: NAME.
+
+    Example:
+        ? (defevent obstacle-seen)
+        OBSTACLE-SEEN
+        ? obstacle-seen
+        #<EVENT OBSTACLE-SEEN>
+
+    Source: language reference §4.
+    """
+    name = form.cdr.car
+    if not isinstance(name, Symbol):
+        raise type_error(name, "SYMBOL", "defevent")
+    return Cons(DEFVAR, Cons(name, Cons(lisp_list(MAKE_EVENT, lisp_list(QUOTE, name)), form.cdr.cdr)))
+
+
+def wait_for_events_values(events: Value, test: Value = None) -> Value:
+    """All the arguments that came with the signal."""
+    scheduler = running.session.scheduler
+    wanted = (events,) if isinstance(events, Event) else tuple(map(as_event, items(events)))
+    for event in wanted:
+        if isinstance(event, Task):
+            event.seen = True
+            if event.status is not None and test is None:
+                return pack(event.given())
+    task = scheduler.at_work()
+    asked = None if test is None else to_function(test)
+    return pack(scheduler.wait(Wait(task, "events", wanted, wanted, asked)))
+
+
+@function("(wait-for-events events &optional test)", ESL, many=wait_for_events_values)
+def wait_for_events(events: Value, test: Value = None) -> Value:
+    """Wait until one of EVENTS, an event or a list of them, is signalled.
+
+    With TEST, a function, only a signal whose arguments satisfy it counts;
+    TEST is asked in the waiting task. A task is an event: it is signalled by
+    SIGNAL, and by its end, which a wait that comes later finds as well.
+
+    Returns: the arguments of the signal, as multiple values.
+    Fails:   :deadlock if nothing can signal any of EVENTS.
+    Waits:   until one of EVENTS is signalled.
+
+    Example:
+        ? (let ((cup-seen (make-event 'cup-seen)))
+            (spawn (signal cup-seen :left 3))
+            (wait-for-events cup-seen))
+        :LEFT
+        3
+
+    Source: ESL §4.1. Where TEST is asked: decision 17.
+    """
+    return primary(wait_for_events_values(events, test))
+
+
+@function("(signal event &rest arguments)", ESL)
+def signal_event(event: Value, *arguments: Value) -> Value:
+    """Signal EVENT: all tasks that wait for it are unblocked, with ARGUMENTS.
+
+    A signal that nobody waits for is lost. This task goes on first.
+
+    Returns: NIL.
+
+    Example:
+        ? (let ((cup-seen (make-event)))
+            (signal cup-seen :nobody-waits))
+        NIL
+
+    Source: ESL §4.1.
+    """
+    if not isinstance(event, Event):
+        raise type_error(event, "EVENT", "signal")
+    scheduler = running.session.scheduler
+    waits = event.signal(arguments)
+    if scheduler.session.hooks.listeners:
+        scheduler.lives.tell(
+            "signal", event=event, arguments=from_items(list(arguments)), wakes=[wait.task for wait in waits]
+        )
+    scheduler.wake(waits)
+    return None
+
+
+function("(signal-event event &rest arguments)", ESL)(signal_event)
+
+
+def as_event(value: Value) -> Event:
+    """VALUE, which is to be an event."""
+    if not isinstance(value, Event):
+        raise type_error(value, "EVENT", "wait-for-events")
+    return value

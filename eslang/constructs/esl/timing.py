@@ -1,0 +1,157 @@
+"""Time: sleeping, deadlines, waiting for conditions, and doing things periodically.
+
+The papers leave real time to the user's guide (ESL §6); what is here is ours.
+"""
+
+from __future__ import annotations
+
+from eslang.base.failure import Failure, type_error
+from eslang.base.hints import Any
+from eslang.base.lists import Cons, from_items, lisp_list
+from eslang.base.many import many_of
+from eslang.base.running import running
+from eslang.base.symbols import Keyword, Symbol, T, Value
+from eslang.base.text import String
+from eslang.compile.registry import ESL, function, macro
+from eslang.constructs.esl.conditions import test_form
+from eslang.constructs.esl.tasks import LAMBDA, QUOTE, closure
+from eslang.runtime import failures
+from eslang.runtime.events import Wait
+from eslang.runtime.guarding import run_until
+from eslang.runtime.periods import Periods
+from eslang.runtime.scheduler import CONDITION
+
+DEADLINE, WAIT = (Symbol.intern(name, ESL) for name in ("%CALL-WITH-DEADLINE", "%WAIT-UNTIL"))
+DEADLINE_EXPIRED, TIMEOUT = Keyword("DEADLINE-EXPIRED"), Keyword("TIMEOUT")
+LONGEST = 1e9  # seconds
+
+
+def seconds_of(value: Value, operator: str, *, above_zero: bool = False) -> float:
+    """VALUE, which is to be a time in seconds."""
+    number = value.__class__ is int or value.__class__ is float or value.__class__.__name__ == "Ratio"
+    if not number or value < 0 or value != value or (above_zero and value == 0):
+        raise type_error(value, "POSITIVE-REAL" if above_zero else "NON-NEGATIVE-REAL", operator)
+    return min(float(value), LONGEST)
+
+
+@function("(sleep seconds)")
+def sleep(seconds: Value) -> Value:
+    """Let this task wait for SECONDS; the others go on.
+
+    Returns: NIL.
+    Fails:   :type-error, if SECONDS is no real number, or below 0.
+    Waits:   until SECONDS have passed on the clock of the interpreter.
+    """
+    running.session.scheduler.sleep(seconds_of(seconds, "sleep"))
+    return None
+
+
+# --- deadlines -----------------------------------------------------------------------
+
+
+@macro("(with-deadline (seconds) &body body)", ESL)
+def with_deadline(form: Cons, environment: Any) -> Value:
+    """Run BODY, which fails where it stands when SECONDS have passed.
+
+    Of several deadlines the earliest counts; the arguments of the failure
+    tell which it was.
+
+    Returns: the values of BODY.
+    Fails:   :deadline-expired inside BODY, with SECONDS and the place of the
+             form.
+
+    Example:
+        ? (with-recovery-procedures ((:deadline-expired (abort :too-slow)))
+            (with-deadline (2) (sleep 5) :done))
+        Failure :DEADLINE-EXPIRED, recovery available. (No retries)
+        :TOO-SLOW
+
+    Source: language reference §4.
+    """
+    seconds, body = form.cdr.car, form.cdr.cdr
+    span = environment.analyser.span if environment is not None else None
+    place = String(f"{span.source.name}:{span.line}:{span.column}") if span is not None else None
+    return lisp_list(DEADLINE, seconds.car, place, from_items([LAMBDA, None], body))
+
+
+def with_deadline_values(seconds: Value, place: Value, body: Any) -> Value:
+    """All the values of the body."""
+    return run_to_deadline(seconds, place, many_of(body))
+
+
+@function("(%call-with-deadline seconds place body)", ESL, many=with_deadline_values)
+def call_with_deadline(seconds: Value, place: Value, body: Any) -> Value:
+    """Call BODY, which fails when SECONDS have passed."""
+    return run_to_deadline(seconds, place, body)
+
+
+def run_to_deadline(seconds: Value, place: Value, body: Any) -> Value:
+    """What BODY gives before SECONDS have passed."""
+
+    def expire() -> Value:
+        return failures.signal(Failure(DEADLINE_EXPIRED, seconds, place), continuable=True)
+
+    return run_until(running.session.scheduler, seconds_of(seconds, "with-deadline"), expire, body)
+
+
+# --- conditions ----------------------------------------------------------------------
+
+
+@macro("(wait-until condition &key timeout)", ESL)
+def wait_until(form: Cons, environment: Any) -> Value:
+    """Wait until CONDITION holds; not at all if it does.
+
+    A condition that reads Lisp variables is looked at again whenever another
+    task has made a step; one that calls a primitive, on the real clock, also
+    as time passes.
+
+    Returns: T.
+    Fails:   :timeout, with the number of seconds, if CONDITION does not hold
+             by then; :deadlock if nothing runs that could make it true.
+    Waits:   until CONDITION holds.
+
+    Example:
+        ? (let ((cups 0))
+            (spawn (dotimes (i 3) (sleep 1) (incf cups)))
+            (wait-until (= cups 2))
+            cups)
+        2
+
+    Source: language reference §4; what wakes it: decision 19.
+    """
+    condition, options = form.cdr.car, form.cdr.cdr
+    test = closure(test_form(condition, environment))
+    return from_items([WAIT, lisp_list(QUOTE, condition), test], options)
+
+
+@function("(%wait-until condition test &key timeout)", ESL)
+def wait_until_function(condition: Value, test: Any, *options: Value) -> Value:
+    """Wait until TEST is true."""
+    timeout = options[1] if options else None
+    scheduler = running.session.scheduler
+    wait = Wait(scheduler.at_work(), CONDITION, condition, (), test)
+    if timeout is None:
+        scheduler.wait(wait)
+        return T
+    timer = scheduler.set_timer(seconds_of(timeout, "wait-until"), lambda: scheduler.end_wait(wait, False))
+    try:
+        came = scheduler.wait(wait)
+    finally:
+        scheduler.timers.call_off(timer)
+    return T if came else failures.signal(Failure(TIMEOUT, timeout), continuable=True)
+
+
+# --- periods -------------------------------------------------------------------------
+
+
+@function("(%start-periods seconds)", ESL)
+def start_periods(seconds: Value) -> Periods:
+    """Periods of SECONDS, the first of which begins now."""
+    return Periods(running.session.scheduler, seconds_of(seconds, "periodically", above_zero=True))
+
+
+@function("(%wait-for-period periods)", ESL)
+def wait_for_period(periods: Periods) -> Value:
+    """Wait until the next period begins."""
+    periods.wait()
+    return None

@@ -1,0 +1,140 @@
+"""Deadlock: nothing runs, and nothing can wake anything.
+
+The report names every task, what it waits for, where, and who could have
+ended that wait. It is the argument of the failure :deadlock, as lists, and
+for people it is laid out by the tools.
+"""
+
+from __future__ import annotations
+
+import sys
+from types import FrameType
+
+from eslang.base.failure import Failure
+from eslang.base.hints import Any, Iterable, NamedTuple
+from eslang.base.lists import lisp_list
+from eslang.base.printer import prin1
+from eslang.base.symbols import Keyword, Value
+from eslang.base.text import String
+from eslang.runtime.events import Event, Wait
+from eslang.runtime.story import Place, nearest_place
+from eslang.runtime.tasks import Task
+
+DEADLOCK = Keyword("DEADLOCK")
+
+
+class Waiting(NamedTuple):
+    """One task of a deadlock: what it waits for, where, and why that does not come."""
+
+    task: str
+    what: str
+    place: Place | None
+    why: str
+
+
+class Deadlock(NamedTuple):
+    """All tasks of a deadlock, in the order in which they began."""
+
+    waiting: tuple[Waiting, ...]
+
+
+def deadlock(tasks: Iterable[Task]) -> Failure:
+    """The failure of TASKS, all of which wait for ever."""
+    alive = list(tasks)
+    report = Deadlock(tuple([waiting(task, alive) for task in alive if task.wait is not None]))
+    arguments = [lisp_list(String(each.task), String(each.what)) for each in report.waiting]
+    failure = Failure(DEADLOCK, *arguments)
+    failure.report = report
+    return failure
+
+
+def family(roots: Iterable[Task]) -> list[Task]:
+    """ROOTS and all that belongs to them, in the order in which they began."""
+    found: list[Task] = []
+    pending = list(roots)
+    while pending:
+        task = pending.pop(0)
+        found.append(task)
+        pending[0:0] = members(task)
+    return found
+
+
+def members(task: Task) -> list[Task]:
+    """The tasks alive that belong to TASK."""
+    return [child for child in task.children or () if child.status is None]
+
+
+def whom_to_tell(task: Task) -> Task:
+    """The task in which a deadlock is raised: TASK, or where it cannot leave, the first that it waits for."""
+    while task.dynamic.held and task.wait is not None and task.wait.kind in ("end", "tasks"):
+        blocking = [other for other in awaited(task.wait) if other.status is None]
+        if not blocking or blocking[0] is task:
+            break
+        task = blocking[0]
+    return task
+
+
+def awaited(wait: Wait) -> list[Task]:
+    """The tasks whose ends WAIT is for."""
+    return [wait.of] if wait.kind == "end" else list(wait.of)
+
+
+def waiting(task: Task, alive: list[Task]) -> Waiting:
+    """What is known of the wait of TASK."""
+    wait = task.wait
+    assert wait is not None
+    return Waiting(task.name, phrase(wait), place_of_task(task), why(wait, alive))
+
+
+def place_of_task(task: Task) -> Place | None:
+    """Where in the source TASK stands."""
+    frame: FrameType | None = task.stack.gr_frame if task.stack is not None else None
+    return nearest_place(frame if frame is not None else sys._getframe(1))
+
+
+def phrase(wait: Wait) -> str:
+    """What WAIT is for, in words."""
+    of: Any = wait.of
+    match wait.kind:
+        case "events":
+            return " or ".join(f"{name_of(event)}" for event in of)
+        case "checkpoint":
+            return f"checkpoint {prin1(of[1])} of {of[0].name}"
+        case "end":
+            return f"the end of {of.name}"
+        case "tasks":
+            left = [task.name for task in of if task.status is None]
+            return "the end of " + ", ".join(left)
+        case "sleep":
+            return f"{prin1(of)} seconds to pass"
+        case "condition":
+            return f"the condition {prin1(of)}"
+    return f"{of}" if of is not None else wait.kind
+
+
+def name_of(event: Event) -> str:
+    """EVENT in words."""
+    if isinstance(event, Task):
+        return f"a signal of {event.name}"
+    return f"event {event.name}".lower() if event.name is not None else "an event without a name"
+
+
+def why(wait: Wait, alive: list[Task]) -> str:
+    """Who could have ended WAIT, and did not."""
+    if wait.kind == "checkpoint":
+        task, key = wait.of
+        if task.status is not None:
+            return f"{task.name} has ended without it"
+        if promises(task, "checkpoint", key):
+            return f"{task.name} has not come to its (checkpoint {prin1(key)})"
+        return f"{task.name} never signals it: no (checkpoint {prin1(key)}) stands in its body"
+    if wait.kind == "events":
+        names = [event.name for event in wait.of if event.name is not None]
+        could = [task.name for task in alive if any(promises(task, "signal", name) for name in names)]
+        return f"{', '.join(could)} could signal it" if could else "no task that is left signals it by name"
+    return ""
+
+
+def promises(task: Task, kind: str, of: Value) -> bool:
+    """True if the text of TASK's body has a signal of KIND for OF."""
+    return any(known == kind and (named is of or named == of) for known, named in task.promises)

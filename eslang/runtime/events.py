@@ -1,0 +1,106 @@
+"""Events, and the waits for them (ESL §4.1).
+
+An event does not record its signals: who waits when it is signalled is woken,
+all at once, and who comes later waits for the next time. A wait may be for
+several events, and leaves all of them when one has woken it. A test is asked
+in the waiting task, so that it may fail, or wait, where it was written.
+"""
+
+from __future__ import annotations
+
+from eslang.base.calls import spread
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Sequence
+from eslang.base.symbols import Datum, Value
+
+if TYPE_CHECKING:
+    from eslang.runtime.tasks import Task
+
+Arguments = tuple[Value, ...]
+
+
+class Event(Datum):
+    """Something that tasks wait for until it is signalled."""
+
+    __slots__ = ("name", "waits")
+
+    def __init__(self, name: Value = None) -> None:
+        self.name = name
+        self.waits: dict[Wait, None] | None = None
+
+    def print_lisp(self, settings: Any) -> str:
+        """How the printer shows it."""
+        return f"#<EVENT {self.name}>" if self.name is not None else "#<EVENT>"
+
+    def signal(self, arguments: Arguments) -> Iterable[Wait]:
+        """End all waits for this, each once; their tasks are to be made ready by the caller."""
+        waits = self.waits
+        if waits is None:
+            return ()
+        self.waits = None
+        for wait in waits:
+            if wait.test is not None:
+                wait.offers.append(arguments)
+                self.expect(wait)
+            else:
+                wait.done = True
+                wait.result = arguments
+                if wait.several:
+                    wait.withdraw()
+        return waits
+
+    def expect(self, wait: Wait) -> None:
+        """Let WAIT be woken by the next signal."""
+        if self.waits is None:
+            self.waits = {}
+        self.waits[wait] = None
+
+
+class Wait:
+    """One task's wait: what for, and whether it is over."""
+
+    __slots__ = ("done", "events", "kind", "of", "offers", "outside", "result", "several", "task", "test")
+
+    def __init__(
+        self,
+        task: Task,
+        kind: str,
+        of: Any = None,
+        events: Sequence[Event] = (),
+        test: Callable[..., Value] | None = None,
+    ) -> None:
+        self.task = task
+        self.kind = kind  # "events", "checkpoint", "sleep", …: a word for people and for traces
+        self.of = of  # what belongs to the kind: the events, the checkpoint, the moment …
+        self.events = events
+        self.test = test
+        self.done = False
+        self.result: Any = None
+        self.several = len(events) > 1
+        self.outside = False  # its condition reads what may change by itself
+        if test is not None:
+            self.offers: list[Arguments] = []
+        for event in events:
+            if event.waits is None:
+                event.waits = {self: None}
+            else:
+                event.waits[self] = None
+
+    def end(self, result: Any) -> None:
+        """It is over, with RESULT."""
+        self.done = True
+        self.result = result
+        self.withdraw()
+
+    def withdraw(self) -> None:
+        """Let no event wake it any more."""
+        for event in self.events:
+            if event.waits is not None:
+                event.waits.pop(self, None)
+
+    def consider(self) -> bool:
+        """Ask the test about the signals that came, in their order; true if one ends the wait."""
+        while self.offers and not self.done:
+            arguments = self.offers.pop(0)
+            if self.test is not None and spread(self.test, arguments) is not None:
+                self.end(arguments)
+        return self.done

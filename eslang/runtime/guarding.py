@@ -1,0 +1,52 @@
+"""Guardians and deadlines: what interrupts the task that is inside a form.
+
+An extent is the form's; the interrupt comes only while the task is inside,
+and is forgotten when it has left.
+"""
+
+from __future__ import annotations
+
+from eslang.base.hints import TYPE_CHECKING, Callable
+from eslang.base.symbols import Value
+from eslang.runtime import failures
+from eslang.runtime.tasks import ABORTED, Extent, Interrupt, Task
+
+if TYPE_CHECKING:
+    from eslang.runtime.scheduler import Scheduler
+
+
+def run_guarded(
+    scheduler: Scheduler, guard: Task, action: Callable[[], Value], body: Callable[[], Value]
+) -> Value:
+    """Run BODY; if GUARD ends before, the task does ACTION where it stands. GUARD has ended afterwards."""
+    task = scheduler.at_work()
+    extent = Extent(task.dynamic)
+
+    def alarm(ended: Task) -> None:
+        if ended.status is not ABORTED and extent.live:
+            scheduler.interrupt(task, Interrupt("guardian", action, extent))
+
+    guard.on_end = alarm
+    guard.seen = True
+    scheduler.lives.start(guard)
+    try:
+        return failures.guarded(body)
+    finally:
+        extent.live = False
+        scheduler.lives.abort_all(task, [guard])
+
+
+def run_until(
+    scheduler: Scheduler, seconds: float, action: Callable[[], Value], body: Callable[[], Value]
+) -> Value:
+    """Run BODY; if SECONDS have passed before, the task does ACTION where it stands."""
+    task = scheduler.at_work()
+    extent = Extent(task.dynamic)
+    timer = scheduler.set_timer(
+        seconds, lambda: scheduler.interrupt(task, Interrupt("deadline", action, extent))
+    )
+    try:
+        return failures.guarded(body)
+    finally:
+        extent.live = False
+        scheduler.timers.call_off(timer)

@@ -1,0 +1,269 @@
+"""The lives of tasks: how they begin, what interrupts them, how they end.
+
+A task has a stack of its own, a greenlet. Stacks are dear to make, so that of
+a task that has ended serves the next. A task ends after all that it has
+spawned; what is then known of it stays: status, values, failure, checkpoints.
+"""
+
+from __future__ import annotations
+
+from eslang.base.control import EndTask, Failed, Stop, Unwind
+from eslang.base.failure import Failure, control_error
+from eslang.base.hints import TYPE_CHECKING, Any, Callable
+from eslang.base.symbols import Keyword, Value
+from eslang.runtime import failures
+from eslang.runtime.events import Wait
+from eslang.runtime.story import place_here
+from eslang.runtime.tasks import ABORTED, FAILED, SUCCEEDED, Interrupt, Task
+
+if TYPE_CHECKING:
+    from greenlet import greenlet as Stack
+
+    from eslang.runtime.scheduler import Scheduler
+
+SPARE = 64  # stacks that are kept for tasks to come
+
+
+class End:
+    """The privileged identifier of the checkpoint at the end of a task (ESL §4.2)."""
+
+
+END = End()
+
+
+class Lives:
+    """The tasks of one scheduler that are alive."""
+
+    def __init__(self, scheduler: Scheduler) -> None:
+        self.scheduler = scheduler
+        self.session = scheduler.session
+        self.tops: dict[Task, None] = {}  # those that belong to the run, not to another task
+        self.count = 0  # how many are alive
+        self.crash: BaseException | None = None  # what no task could answer
+        self.unseen: Task | None = None  # one of the run's own, which failed while nobody looked
+        self._names: dict[str, int] = {}
+        self._spare: list[Stack] = []
+        self._next: Task | None = None  # the one that is to begin
+
+    # --- beginning -------------------------------------------------------------
+
+    def create(
+        self,
+        name: str,
+        body: Callable[[], Value],
+        parent: Task | None = None,
+        on_end: Callable[[Task], None] | None = None,
+    ) -> Task:
+        """A new task, which begins with the dynamic bindings of the current one."""
+        known = self._names.get(name, 0) + 1
+        self._names[name] = known
+        task = Task(name if known == 1 else f"{name}.{known}", body, parent)
+        task.on_end = on_end
+        task.source = self.scheduler.ticks.make()
+        task.dynamic.logical = self.session.dynamic.logical
+        if self.session.bindings.hidden is not None:
+            task.kept = self.session.bindings.copy()
+        self.count += 1
+        return task
+
+    def start(self, task: Task) -> None:
+        """Let TASK, which belongs to its parent or else to the run, have its first turn."""
+        owner = task.parent
+        if owner is None:
+            self.tops[task] = None
+        elif owner.children is None:
+            owner.children = {task: None}
+        else:
+            owner.children[task] = None
+        self.tell("task-started", about=task, parent=owner)
+        self.scheduler.make_ready(task)
+
+    def step(self, task: Task) -> None:
+        """Let TASK have its turn, from the driver."""
+        if task.status is not None:
+            return
+        if task.stack is None:
+            self._next = task
+            task.stack = self._spare.pop() if self._spare else self._stack()
+        task.stack.switch()
+        if self.crash is not None:
+            crash, self.crash = self.crash, None
+            raise crash
+
+    def _stack(self) -> Stack:
+        from greenlet import greenlet
+
+        return greenlet(self._serve)
+
+    def _serve(self) -> None:
+        """Run tasks on this stack, one after the other, as long as it is kept."""
+        scheduler = self.scheduler
+        while True:
+            task, self._next = self._next, None
+            if task is None:
+                return
+            stack: Any = task.stack
+            self._live(task)
+            stack.parent = scheduler.driver
+            if len(self._spare) >= SPARE:
+                return
+            self._spare.append(stack)
+            del task
+            stack.parent.switch()
+
+    def forget_spare(self) -> None:
+        """Forget the stacks that are kept: they belong to a thread that is gone."""
+        self._spare.clear()
+
+    def drop_spare(self) -> None:
+        """Let the stacks go that are kept for tasks to come."""
+        for stack in self._spare:
+            stack.throw()
+        self._spare.clear()
+
+    # --- living ----------------------------------------------------------------
+
+    def _live(self, task: Task) -> None:
+        """Run the body of TASK to its end, whatever that is."""
+        self.scheduler.enter(task)
+        status = ABORTED
+        try:
+            task.values = self._with_children(task)
+            status = SUCCEEDED
+        except Failed as jump:
+            task.failure, status = jump.value, FAILED
+        except Stop as stop:
+            if stop is not task.ending:
+                self.scheduler.end_run(stop)
+        except EndTask:
+            pass
+        except Unwind:
+            task.failure, status = self._lost(), FAILED
+        except BaseException as crash:
+            self.crash = crash
+        self.end(task, status)
+
+    def _with_children(self, task: Task) -> Value:
+        """The values of the body of TASK, once all that it has spawned has ended."""
+        assert task.body is not None
+        try:
+            if task.interrupts or task.ending is not None:
+                self.scheduler.attend(task)
+            values = failures.guarded(task.body)
+            if task.children or task.unseen:
+                self._await_children(task)
+            return values
+        finally:
+            if task.children:
+                self.abort_all(task, list(task.children))
+
+    def _await_children(self, task: Task) -> None:
+        """Wait for those that TASK has spawned; daemons are aborted. An unseen failure is TASK's own."""
+        children = list(task.children or ())
+        for child in children:
+            if child.daemon:
+                self.abort(child)
+        for child in children:
+            self.await_end(task, child)
+        if task.unseen is not None and not task.unseen.seen:
+            failures.signal(passed_on(task.unseen), continuable=True)
+
+    def _lost(self) -> Failure:
+        """The failure of a task that was left by a jump whose target is in another."""
+        failure = control_error("this jump leads out of the task that makes it")
+        self.tell("failure", failure=failure)
+        return failure
+
+    def end(self, task: Task, status: Keyword) -> None:
+        """TASK, the current one, has ended: wake who waits for that."""
+        task.status = status
+        self.tell("task-ended", about=task, status=status, failure=task.failure)
+        self.session.bindings.take_off()
+        self.count -= 1
+        if task in self.tops:
+            del self.tops[task]
+        elif task.parent is not None and task.parent.children is not None:
+            task.parent.children.pop(task, None)
+        if status is FAILED:
+            self._note_unseen(task)
+        task.body = task.source = None
+        task.interrupts.clear()
+        task.stack = task.ending = None
+        self.scheduler.current = None
+        self.scheduler.wake(task.reach(END))
+        self.scheduler.wake(task.signal(task.given()))
+        if task.on_end is not None:
+            on_end, task.on_end = task.on_end, None
+            on_end(task)
+
+    def _note_unseen(self, task: Task) -> None:
+        """TASK has failed; its owner is to know, if nobody else looks at it."""
+        owner: Lives | Task = task.parent if task.parent is not None else self
+        if owner.unseen is None or owner.unseen.seen:
+            owner.unseen = task
+
+    # --- interrupting ------------------------------------------------------------
+
+    def obey(self, task: Task, interrupt: Interrupt) -> None:
+        """Do what INTERRUPT asks of TASK, the current one, on top of its stack."""
+        self.tell("interrupt", why=interrupt.kind)
+        try:
+            failures.guarded(interrupt.action)
+        except Unwind as jump:
+            jump.failed = True  # what it leaves is cleaned up
+            raise
+
+    def abort(self, task: Task) -> None:
+        """Let TASK leave everything, with its cleanups; once is enough."""
+        if task.status is not None or task.ending is not None:
+            return
+        self.tell("abort", of=task)
+        task.ending = EndTask(task)
+        if task.stack is None and task is not self.scheduler.current and task.wait is None:
+            self._end_unborn(task)
+        else:
+            self.scheduler.make_ready(task)
+
+    def _end_unborn(self, task: Task) -> None:
+        """End TASK, which has not begun."""
+        scheduler = self.scheduler
+        current, kept = scheduler.current, self.session.bindings.take_off()
+        self.end(task, ABORTED)
+        scheduler.current = current
+        self.session.bindings.put_on(kept)
+
+    # --- waiting for ends --------------------------------------------------------
+
+    def await_end(self, task: Task, other: Task) -> None:
+        """Let TASK, the current one, wait until OTHER has ended."""
+        if other.status is None:
+            event = other.checkpoint_event(END, None)
+            self.scheduler.wait(Wait(task, "end", other, (event,)))
+
+    def abort_all(self, task: Task, others: list[Task]) -> None:
+        """Abort OTHERS, and let TASK, the current one, wait until they have ended; nothing holds it up."""
+        for other in others:
+            self.abort(other)
+        task.dynamic.held += 1
+        try:
+            for other in others:
+                self.await_end(task, other)
+        finally:
+            task.dynamic.held -= 1
+
+    def tell(self, kind: str, **told: Any) -> None:
+        """Tell the listeners, if there are any, where the current task stands."""
+        hooks = self.session.hooks
+        if hooks.listeners:
+            hooks.tell(kind, place_here(), **told)
+
+
+def passed_on(task: Task) -> Failure:
+    """The failure of TASK as it is to be signalled in another: it knows where it came from."""
+    first = task.failure
+    assert first is not None
+    failure = Failure(first.cause, *first.arguments)
+    failure.condition = first.condition
+    failure.origin = task
+    task.seen = True
+    return failure

@@ -1,0 +1,129 @@
+"""Runs: what is entered from outside, and how it ends.
+
+A call from Python, a file that is loaded, a form at the prompt is a root: a
+task on the stack of its caller, which the run waits for. What is spawned at
+top level belongs to the run, and is there when other roots come and go.
+"""
+
+from __future__ import annotations
+
+from _thread import get_ident
+
+from eslang.base.control import Stop
+from eslang.base.failure import Failure, control_error
+from eslang.base.hints import Any, Callable
+from eslang.base.symbols import Keyword, Value
+from eslang.runtime import failures
+from eslang.runtime.deadlock import deadlock, family, whom_to_tell
+from eslang.runtime.lives import passed_on
+from eslang.runtime.scheduler import Scheduler
+from eslang.runtime.tasks import ABORTED, ANYWHERE, FAILED, SUCCEEDED, Interrupt, Task
+
+
+class Runs:
+    """The entrances of one interpreter, and what belongs to its run."""
+
+    def __init__(self, session: Any, *, shuffled: bool, is_open: bool) -> None:
+        self.session = session
+        self.scheduler = Scheduler(session, shuffled)
+        self.scheduler.end_deadlock = self.end_deadlock
+        self.scheduler.end_run = self.stop
+        self.lives = self.scheduler.lives
+        self.scheduler.is_open = is_open
+        self.root: Task | None = None
+        self.stopped: Stop | None = None  # what the run is to end with, once all has been aborted
+        self._ident = get_ident()
+
+    def run(self, body: Callable[[], Value]) -> Value:
+        """Run BODY to its end, as a root or within the task that calls. Raises Failure, Stop."""
+        return self.enter(lambda: failures.run_apart(body))
+
+    def enter(self, body: Callable[[], Any], name: str = "main") -> Any:
+        """The same; BODY itself sees to what is to be run apart."""
+        self.check_entrance()
+        if self.scheduler.current is not None:
+            return body()
+        root = self.root = self.lives.create(name, body)
+        root.is_root = root.seen = True
+        scheduler = self.scheduler
+        scheduler.enter(root)
+        self.lives.tell("task-started", about=root, parent=None)
+        status: Keyword = ABORTED
+        try:
+            result = body()
+            status = SUCCEEDED
+            return result
+        except Failure as failure:
+            root.failure, status = failure, FAILED
+            raise
+        finally:
+            self._leave(root, status)
+
+    def _leave(self, root: Task, status: Keyword) -> None:
+        """ROOT has ended; nothing is on a task's stack any more."""
+        self.root = None
+        self.lives.end(root, status)
+        self.scheduler.calm_down()
+
+    def check_entrance(self) -> None:
+        """Refuse an entrance where something is at work that cannot be entered."""
+        if get_ident() != self._ident:
+            if self.lives.count:
+                raise control_error("this interpreter is at work in another thread; signal it from there")
+            self._ident = get_ident()
+            self.scheduler.driver = None
+            self.lives.forget_spare()
+        current = self.scheduler.current
+        if current is None and self.root is not None:
+            raise control_error("this interpreter waits in a call; it can be entered when that is over")
+        if current is not None and not self.scheduler.is_on_stack(current):
+            raise control_error("this interpreter waits for another one, which cannot call it")
+
+    # --- ends --------------------------------------------------------------------
+
+    def finish(self) -> None:
+        """Let the run end: wait for what was spawned, and abort the daemons. Raises a failure nobody saw."""
+        self.drive_until(lambda: all(task.daemon for task in self.lives.tops))
+        self.abort_all()
+        unseen, self.lives.unseen = self.lives.unseen, None
+        if unseen is not None and not unseen.seen:
+            raise passed_on(unseen)
+
+    def abort_all(self) -> None:
+        """Abort all that belongs to the run, and wait until it has ended."""
+        for task in list(self.lives.tops):
+            self.lives.abort(task)
+        self.drive_until(lambda: not self.lives.tops)
+
+    def drive_until(self, done: Callable[[], bool]) -> None:
+        """Let tasks run, outside of any, until DONE. Raises Stop if they were stopped."""
+        scheduler = self.scheduler
+        if not done():
+            try:
+                scheduler.drive(done=done)
+            finally:
+                scheduler.calm_down()
+        if self.stopped is not None:
+            stop, self.stopped = self.stopped, None
+            raise stop
+
+    def stop(self, stop: Stop) -> None:
+        """Let the root end with STOP; where there is none, all that belongs to the run."""
+        if self.root is not None:
+            self.root.ending = stop
+            self.scheduler.make_ready(self.root)
+        else:
+            self.stopped = stop
+            for task in list(self.lives.tops):
+                self.lives.abort(task)
+
+    def end_deadlock(self) -> None:
+        """Nothing can wake anything: the task that the run waits for fails with :deadlock."""
+        roots = [*([self.root] if self.root is not None else []), *self.lives.tops]
+        failure = deadlock(family(roots))
+        task = whom_to_tell(roots[0])
+
+        def fail() -> None:
+            failures.signal(failure, continuable=False)
+
+        self.scheduler.interrupt(task, Interrupt("deadlock", fail, level=ANYWHERE, urgent=True))

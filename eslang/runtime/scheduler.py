@@ -1,0 +1,340 @@
+"""The scheduler: whose turn it is.
+
+One task runs at a time, on its own stack, until it waits, its time slice is
+over, or it ends. The ready take turns first in, first out, or as the source
+of chance has it. Whoever waits hands over to the next that is ready; when
+there is none, the driver has the word: the stack from which the interpreter
+was entered. It sees to timers and to what comes from outside, and begins new
+tasks, whose stacks would else stand on one another. A task that runs on the
+driver's stack, because it was called from Python, drives while it waits.
+
+The order is a matter of the program, its inputs and the seed alone.
+"""
+
+from __future__ import annotations
+
+from _collections import deque  # type: ignore[import-not-found]  # without the rest of collections
+from _queue import SimpleQueue
+
+from eslang.base import calls
+from eslang.base.control import Stop
+from eslang.base.failure import control_error
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable
+from eslang.runtime import failures
+from eslang.runtime.events import Wait
+from eslang.runtime.lives import Lives
+from eslang.runtime.tasks import Interrupt, Task
+from eslang.runtime.ticks import Ticks
+from eslang.runtime.timers import Timer, Timers
+
+if TYPE_CHECKING:
+    from greenlet import greenlet as Stack
+
+TURNS = 64  # hand-overs from task to task before the driver looks at clock and posts
+CONDITION = "condition"  # the kind of a wait that looks at its test again whenever something was done
+POLL = 0.02  # seconds between two looks at a condition that reads what no task changes
+
+
+class Scheduler:
+    """Whose turn it is among the tasks of one interpreter."""
+
+    def __init__(self, session: Any, shuffled: bool = False) -> None:
+        self.session = session
+        self.shuffled = shuffled
+        self.current: Task | None = None
+        self.ready: deque[Task] = deque()
+        self.timers = Timers()
+        self.posted: SimpleQueue[Callable[[], None]] = SimpleQueue()
+        self.driver: Stack | None = None
+        self.turns = 0
+        self.steps = 0  # how many were made: each turn of a task is one
+        self.watching: list[Wait] = []  # for conditions that may change at any step
+        self.looking = False  # the last step only looked again at a condition
+        self.outside = 0  # operations that go on outside, and will end a wait
+        self.is_open = False  # anything may come from outside
+        self.end_deadlock: Callable[[], None] = lambda: None
+        self.end_run: Callable[[Stop], None] = lambda stop: None
+        self.rest: Callable[[float | None], None] = self._rest
+        self.lives = Lives(self)
+        self.ticks = Ticks(self.safepoint)
+        self.calm = session.dynamic  # what is on no task's stack
+        self.calm_source = self.ticks.source
+
+    # --- turns -----------------------------------------------------------------
+
+    def make_ready(self, task: Task) -> None:
+        """Let TASK have a turn."""
+        if not task.queued and task is not self.current and task.status is None:
+            task.queued = True
+            self.ready.append(task)
+
+    def pause(self, task: Task) -> None:
+        """Let others have their turns, until it is that of TASK, the current one, again."""
+        session = self.session
+        depth = calls.depth
+        if session.bindings.hidden is not None or depth[0]:
+            task.kept, task.depth, depth[0] = session.bindings.take_off(), depth[0], 0
+        self.current = None
+        if task.stack is self.driver:
+            self.drive(task)
+        else:
+            self.turns -= 1
+            ready = self.ready
+            stack = ready[0].stack if ready and self.turns > 0 else None
+            if stack is None or stack is self.driver:
+                self.driver.switch()  # type: ignore[union-attr]
+            else:
+                ready.popleft()
+                if stack is not task.stack:
+                    stack.switch()
+        self.current = task  # as `enter` does, which would be one call more
+        task.queued = self.looking = False
+        self.steps += 1
+        session.dynamic = task.dynamic
+        self.ticks.source = task.source
+        if task.kept or task.depth:
+            self._put_on(task)
+
+    def enter(self, task: Task) -> None:
+        """Put in force what belongs to TASK, whose turn it is."""
+        self.current = task
+        task.queued = self.looking = False
+        self.steps += 1
+        self.session.dynamic = task.dynamic
+        self.ticks.source = task.source
+        if task.kept or task.depth:
+            self._put_on(task)
+
+    def _put_on(self, task: Task) -> None:
+        self.session.bindings.put_on(task.kept)
+        calls.depth[0] = task.depth
+        task.kept, task.depth = (), 0
+
+    def drive(self, task: Task | None = None, done: Callable[[], bool] | None = None) -> None:
+        """Give out turns until it is that of TASK, which runs on this stack, or DONE says so."""
+        if self.driver is None:
+            self._take_the_wheel(task)
+        ready, posted, timers = self.ready, self.posted, self.timers
+        self.look_again()
+        while done is None or not done():
+            if not posted.empty():
+                self.take_posts()
+            if self.ticks.pending is not None:
+                self.stop_run()
+            if timers and timers.fire(self.session.clock.now()):
+                continue
+            if not ready:
+                self._idle()
+                continue
+            self.turns = 1 if self.shuffled or self.watching else TURNS
+            other = self._pick()
+            if other is task:
+                return
+            self.lives.step(other)
+            if self.watching:
+                self.look_again()
+
+    def _take_the_wheel(self, task: Task | None) -> None:
+        from greenlet import getcurrent
+
+        self.driver = getcurrent()
+        if task is not None:
+            task.stack = self.driver
+
+    def calm_down(self) -> None:
+        """Nothing is on a task's stack any more."""
+        self.current = None
+        self.driver = None
+        self.session.dynamic = self.calm
+        self.ticks.source = self.calm_source
+
+    def is_on_stack(self, task: Task) -> bool:
+        """True if the stack at hand is that of TASK."""
+        if self.driver is None:
+            return True
+        from greenlet import getcurrent
+
+        return getcurrent() is task.stack
+
+    def _pick(self) -> Task:
+        """Take the next of the ready: the first, or any of them."""
+        ready = self.ready
+        if self.shuffled and len(ready) > 1:
+            index = self.session.chance.randrange(len(ready))
+            if index:
+                ready[0], ready[index] = ready[index], ready[0]
+        task: Task = ready.popleft()
+        return task
+
+    def look_again(self) -> None:
+        """Let all that wait for a condition look at it again, unless nothing was done since."""
+        if self.watching and not self.looking:
+            watching, self.watching = self.watching, []
+            self.wake(watching)
+
+    def watch(self, wait: Wait) -> None:
+        """Let WAIT, whose condition does not hold, look at it again after the next step."""
+        self.watching.append(wait)
+        self.looking = True
+        self.turns = 0
+
+    def safepoint(self) -> None:
+        """A time slice is over: let others have their turn, and take what came for the current task."""
+        task = self.current
+        if task is None:
+            stop = self.ticks.take()
+            if stop is not None:
+                raise stop
+            return
+        task.source = self.ticks.source
+        self.session.clock.use_slice()
+        if self.ticks.pending is not None:
+            stop = self.stop_run()
+            if task.dynamic.masked:
+                task.ending = stop
+        if not task.dynamic.masked and (
+            self.ready or self.watching or self.timers or not self.posted.empty()
+        ):
+            self.yield_turn(task)
+        else:
+            self.attend(task)
+
+    def yield_turn(self, task: Task) -> None:
+        """Let the others that are ready have their turns before TASK, the current one, goes on."""
+        self.look_again()
+        task.queued = True
+        self.ready.append(task)
+        self.pause(task)
+        self.attend(task)
+
+    def at_work(self) -> Task:
+        """The current task. Fails with :control-error where there is none that could wait."""
+        if self.current is None:
+            raise control_error("nothing can wait here: no task is running")
+        return self.current
+
+    # --- waits -----------------------------------------------------------------
+
+    def wait(self, wait: Wait) -> Any:
+        """Wait until WAIT, the current task's, is over; its result."""
+        task = wait.task
+        outer, task.wait = task.wait, wait
+        hooks = self.session.hooks
+        if hooks.listeners:
+            hooks.tell("wait", on=wait.kind, of=wait.of)
+        try:
+            while True:
+                if task.interrupts or task.ending is not None:
+                    self.attend(task)
+                if wait.done or (wait.test is not None and self.considers(wait)):
+                    return wait.result
+                self.pause(task)
+        finally:
+            task.wait = outer
+            if not wait.done:
+                wait.withdraw()
+
+    def attend(self, task: Task) -> None:
+        """Do what interrupts ask of TASK, the current one, if nothing holds them off."""
+        while task.interrupts or task.ending is not None:
+            if task.ending is not None and task.may_end():
+                raise task.ending
+            interrupt = task.next_interrupt()
+            if interrupt is None:
+                return
+            self.lives.obey(task, interrupt)
+
+    def wake(self, waits: Iterable[Wait]) -> None:
+        """Make the tasks of WAITS ready, in their order."""
+        for wait in waits:
+            task = wait.task
+            if task.wait is wait and not task.queued and task is not self.current:
+                task.queued = True
+                self.ready.append(task)
+
+    def considers(self, wait: Wait) -> bool:
+        """Ask the test of WAIT, in its task; true if that ends it. A condition is looked at again later."""
+        if wait.kind != CONDITION:
+            return wait.consider()
+        touched = self.session.touched
+        if failures.guarded(wait.test) is not None:  # type: ignore[arg-type]
+            wait.end(True)
+        elif not wait.done:
+            wait.outside = self.session.touched != touched
+            self.watch(wait)
+        return wait.done
+
+    def sleep(self, seconds: float, kind: str = "sleep") -> None:
+        """Let the current task wait until SECONDS have passed."""
+        task = self.at_work()
+        wait = Wait(task, kind, seconds)
+        timer = self.set_timer(seconds, lambda: self.end_wait(wait, None))
+        try:
+            self.wait(wait)
+        finally:
+            self.timers.call_off(timer)
+
+    def end_wait(self, wait: Wait, result: Any) -> None:
+        """End WAIT with RESULT, and wake its task."""
+        if not wait.done:
+            wait.end(result)
+            self.wake([wait])
+
+    def set_timer(self, seconds: float, action: Callable[[], None]) -> Timer:
+        """Let ACTION happen in SECONDS from now."""
+        return self.timers.set(self.session.clock.now() + seconds, action)
+
+    # --- interrupts ------------------------------------------------------------
+
+    def interrupt(self, task: Task, interrupt: Interrupt) -> None:
+        """Let TASK do what INTERRUPT says, where it stands, at its next step."""
+        if task.status is None:
+            task.interrupts.append(interrupt)
+            self.make_ready(task)
+
+    # --- what comes from outside -------------------------------------------------
+
+    def post(self, action: Callable[[], None]) -> None:
+        """Let ACTION happen between two steps, soon; safe from any thread and from signal handlers."""
+        self.posted.put(action)
+
+    def take_posts(self) -> None:
+        """Do what was posted."""
+        while not self.posted.empty():
+            self.posted.get()()
+        self.looking = False
+        self.look_again()
+
+    def stop_run(self) -> Stop | None:
+        """See to a pending stop: the run is to end with it."""
+        stop = self.ticks.take()
+        if stop is not None:
+            self.end_run(stop)
+        return stop
+
+    def _idle(self) -> None:
+        """Nobody is ready: let time pass until a timer is due, or something comes from outside."""
+        moment = self.timers.next_moment()
+        clock = self.session.clock
+        if clock.is_virtual and moment is not None and not self.outside:
+            clock.advance(moment)
+            return
+        pause = None if moment is None else max(0.0, moment - clock.now())
+        if not clock.is_virtual and any(wait.outside and not wait.done for wait in self.watching):
+            self.rest(POLL if pause is None else min(POLL, pause))
+            self.looking = False
+            self.look_again()
+        elif self.outside or self.is_open or pause is not None:
+            self.rest(pause)
+        else:
+            self.end_deadlock()
+
+    def _rest(self, seconds: float | None) -> None:
+        """Sleep until something is posted, or for SECONDS."""
+        from _queue import Empty
+
+        try:
+            action = self.posted.get(timeout=seconds) if seconds is not None else self.posted.get()
+        except Empty:
+            return
+        action()

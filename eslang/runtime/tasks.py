@@ -1,0 +1,191 @@
+"""Tasks, and the tree that owns them (ESL §4).
+
+A task runs one body to its end and is itself an event, so others may wait for
+it. Checkpoints are remembered; plain events are not (ESL §4.2). A body is any
+callable: nothing here knows what a form is, nor whose turn it is.
+"""
+
+from __future__ import annotations
+
+from eslang.base.control import EndTask, Stop
+from eslang.base.failure import Failure
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Iterator
+from eslang.base.many import primary, values_list
+from eslang.base.symbols import Keyword, Value
+from eslang.runtime.events import Event
+from eslang.runtime.failures import Dynamic
+
+if TYPE_CHECKING:
+    from eslang.runtime.events import Wait
+
+READY, RUNNING, WAITING, SUCCEEDED, FAILED, ABORTED = map(
+    Keyword, ("READY", "RUNNING", "WAITING", "SUCCEEDED", "FAILED", "ABORTED")
+)
+ENDED = (SUCCEEDED, FAILED, ABORTED)
+ANYWHERE = 10**9  # the level of an interrupt that cleanups do not hold off
+
+
+class Extent:
+    """What an interrupt belongs to, a form that a task is in; it comes only while the task is inside."""
+
+    __slots__ = ("level", "live")
+
+    def __init__(self, dynamic: Dynamic) -> None:
+        self.live = True
+        self.level = dynamic.held  # a cleanup that runs around the form does not hold the interrupt off
+
+
+class Interrupt:
+    """Something that a task is to do where it stands, at its next step."""
+
+    __slots__ = ("action", "extent", "kind", "level", "urgent")
+
+    def __init__(
+        self,
+        kind: str,
+        action: Callable[[], object],
+        extent: Extent | None = None,
+        *,
+        level: int = 0,
+        urgent: bool = False,
+    ) -> None:
+        self.kind = kind  # "abort", "guardian", "deadline", …
+        self.action = action
+        self.extent = extent
+        self.level = extent.level if extent is not None else level
+        self.urgent = urgent  # WITHOUT-INTERRUPTS does not hold it off
+
+
+class Task(Event):
+    """One thread of execution: its place in the tree, its life so far, and what it has on its stack."""
+
+    __slots__ = (
+        "body",
+        "checkpoints",
+        "children",
+        "daemon",
+        "depth",
+        "dynamic",
+        "ending",
+        "failure",
+        "interrupts",
+        "is_root",
+        "kept",
+        "on_end",
+        "parent",
+        "promises",
+        "queued",
+        "reached",
+        "seen",
+        "source",
+        "stack",
+        "status",
+        "unseen",
+        "values",
+        "wait",
+    )
+
+    def __init__(self, name: str, body: Callable[[], Value], parent: Task | None) -> None:
+        self.name: str = name
+        self.waits = None
+        self.body: Callable[[], Value] | None = body
+        self.parent = parent
+        self.children: dict[Task, None] | None = None  # those that it has spawned, while they live
+        self.dynamic = Dynamic()
+        self.stack: Any = None  # the greenlet, once it runs
+        self.status: Keyword | None = None  # how it ended
+        self.values: Value = None  # what it gave, all values
+        self.failure: Failure | None = None  # what ended it
+        self.seen = False  # somebody has looked at how it ended
+        self.unseen: Task | None = None  # one that it has spawned, which failed while nobody looked
+        self.queued = False  # among the ready
+        self.wait: Wait | None = None  # the innermost
+        self.interrupts: list[Interrupt] = []
+        self.ending: EndTask | Stop | None = None  # it was aborted, or the run is to end
+        self.daemon = False
+        self.is_root = False  # entered from outside: what it spawns belongs to the run
+        self.kept: tuple[Any, ...] = ()  # its dynamic bindings, while others run
+        self.depth = 0  # of its calls through C
+        self.source: Any = None  # of the ticks of its loops
+        self.checkpoints: dict[Any, Event] | None = None  # that somebody waits for
+        self.reached: dict[Any, None] | None = None  # checkpoints that it has passed
+        self.on_end: Callable[[Task], None] | None = None
+        self.promises: tuple[tuple[str, Value], ...] = ()  # what the text of its body signals
+
+    def print_lisp(self, settings: Any) -> str:
+        """How the printer shows it."""
+        return f"#<TASK {self.name}>"
+
+    @property
+    def has_ended(self) -> bool:
+        """True if nothing more will come of it."""
+        return self.status is not None
+
+    @property
+    def value(self) -> Value:
+        """Its first value; NIL if it did not succeed."""
+        return primary(self.values)
+
+    def given(self) -> tuple[Value, ...]:
+        """All that it gave; nothing if it did not succeed."""
+        return tuple(values_list(self.values)) if self.status is SUCCEEDED else ()
+
+    def ancestors(self) -> Iterator[Task]:
+        """Those that it belongs to, itself first."""
+        task: Task | None = self
+        while task is not None:
+            yield task
+            task = task.parent
+
+    # --- interrupts ----------------------------------------------------------------
+
+    def may_take(self, interrupt: Interrupt) -> bool:
+        """True if INTERRUPT can reach it where it stands: no cleanup or WITHOUT-INTERRUPTS holds it off."""
+        dynamic = self.dynamic
+        return dynamic.held <= interrupt.level and (not dynamic.masked or interrupt.urgent)
+
+    def next_interrupt(self) -> Interrupt | None:
+        """Take the first interrupt that can reach it now; those whose forms were left are dropped."""
+        index = 0
+        while index < len(self.interrupts):
+            interrupt = self.interrupts[index]
+            if interrupt.extent is not None and not interrupt.extent.live:
+                del self.interrupts[index]
+            elif self.may_take(interrupt):
+                del self.interrupts[index]
+                return interrupt
+            else:
+                index += 1
+        return None
+
+    def may_end(self) -> bool:
+        """True if it is to end, and nothing holds that off."""
+        dynamic = self.dynamic
+        return (
+            self.ending is not None
+            and not dynamic.held
+            and (not dynamic.masked or self.ending.__class__ is not EndTask)
+        )
+
+    # --- checkpoints ---------------------------------------------------------------
+
+    def has_reached(self, key: Any) -> bool:
+        """True if it has passed the checkpoint KEY."""
+        return self.reached is not None and key in self.reached
+
+    def checkpoint_event(self, key: Any, name: Value) -> Event:
+        """The event of the checkpoint KEY, for those who wait for it."""
+        if self.checkpoints is None:
+            self.checkpoints = {}
+        event = self.checkpoints.get(key)
+        if event is None:
+            event = self.checkpoints[key] = Event(name)
+        return event
+
+    def reach(self, key: Any) -> Iterable[Wait]:
+        """Record that it passes the checkpoint KEY; the waits that this ends."""
+        if self.reached is None:
+            self.reached = {}
+        self.reached[key] = None
+        event = self.checkpoints.pop(key, None) if self.checkpoints is not None else None
+        return event.signal(()) if event is not None else []

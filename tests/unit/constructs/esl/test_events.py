@@ -1,0 +1,26 @@
+"""Events: what wakes whom."""
+
+from __future__ import annotations
+
+from support import lines_of
+
+
+def test_a_test_is_asked_in_the_waiting_task() -> None:
+    text = """
+    (defevent seen)
+    (task-net
+      (waiter (with-recovery-procedures ((:odd (abort (print :answered-where-it-waits))))
+                (wait-for-events seen (lambda (n) (if (oddp n) (fail :odd) (= n 4))))))
+      (signaller (yield) (signal seen 2) (signal seen 3) (print :signalled)))
+    """
+    assert lines_of(text) == [":SIGNALLED", ":ANSWERED-WHERE-IT-WAITS"]
+
+
+def test_no_signal_is_lost_while_a_test_waits() -> None:
+    text = """
+    (defevent seen)
+    (task-net
+      (waiter (print (wait-for-events seen (lambda (n) (sleep 1) (= n 3)))))
+      (signaller (yield) (signal seen 1) (signal seen 2) (sleep 0.5) (signal seen 3)))
+    """
+    assert lines_of(text) == ["3"]
