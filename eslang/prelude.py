@@ -46,6 +46,8 @@ LISP = [
     "control",
     "standard_macros",
     "loading",
+    "times",
+    "task_types",
 ]
 ROOMS = [
     *(f"eslang.lisp.{name}" for name in LISP),

@@ -152,9 +152,9 @@ _SIMPLE: dict[Value, Claim] = {
 }
 
 
-def define_simple_type(names: str, claim: Claim) -> None:
-    """Make NAMES built-in types of package COMMON-LISP: for the files below this one."""
-    _SIMPLE.update(_names((names, claim)))
+def define_simple_type(names: str, claim: Claim, package: str = "COMMON-LISP") -> None:
+    """Make NAMES built-in types of PACKAGE: for the files below this one."""
+    _SIMPLE.update({Symbol.intern(name, package): claim for name in names.split()})
 
 
 def _ask(value: Value, specifiers: list[Value], answer: bool) -> bool:

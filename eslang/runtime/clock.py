@@ -51,6 +51,11 @@ class RealClock:
         """It passes by itself."""
 
 
+def wall_time() -> float:
+    """Seconds since the beginning of 1970, in Greenwich."""
+    return time.time()
+
+
 Clock = VirtualClock | RealClock
 
 
