@@ -16,7 +16,7 @@ from eslang.base.control import Stop
 from eslang.base.decoding import decode, file_bytes
 from eslang.base.diagnostics import Diagnostic, EslError, error_at
 from eslang.base.failure import UNBOUND_VARIABLE, Failure
-from eslang.base.hints import TYPE_CHECKING, Any, Callable, F, Iterable, Iterator, overload
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, F, Iterable, Iterator, NoReturn, overload
 from eslang.base.image import PACKAGE, Image
 from eslang.base.many import values_list
 from eslang.base.packages import Package
@@ -50,8 +50,16 @@ if TYPE_CHECKING:
     from eslang.constructs.esl.doubles import Double
     from eslang.reader.reader import Reading
 
-LATER = {"signal": COMES, "call_async": COMES, "facts": COMES.replace("tasks", "the logical database")}
 DEEPEST = 400_000  # Python frames; what is deeper is a :stack-exhausted failure
+
+
+def coming(name: str, when: str) -> property:
+    """The attribute NAME of an interpreter that comes with a later version: to use it says so."""
+
+    def refuse(agent: Interpreter) -> NoReturn:
+        raise AttributeError(f"Interpreter.{name} {when}", name=name, obj=agent)
+
+    return property(refuse)
 
 
 class Interpreter:
@@ -312,13 +320,9 @@ class Interpreter:
         """End this interpreter; nothing can be called on it afterwards."""
         self.closed = True
 
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any:
-            """Say of what comes with later versions that it does."""
-            if name in LATER:
-                raise AttributeError(f"Interpreter.{name} {LATER[name]}", name=name, obj=self)
-            raise AttributeError(f"'Interpreter' object has no attribute '{name}'", name=name, obj=self)
+    if not TYPE_CHECKING:  # each a property: a __getattr__ would slow all of the session's attributes down
+        signal, call_async = coming("signal", COMES), coming("call_async", COMES)
+        facts = coming("facts", COMES.replace("tasks", "the logical database"))
 
     def __enter__(self) -> Interpreter:
         return self
