@@ -17,6 +17,7 @@ from eslang.base.printer import prin1
 from eslang.base.symbols import Keyword, Value
 from eslang.base.text import String
 from eslang.runtime.events import Event, Wait
+from eslang.runtime.lives import LEAVING
 from eslang.runtime.story import Place, nearest_place
 from eslang.runtime.tasks import Task
 
@@ -65,18 +66,16 @@ def members(task: Task) -> list[Task]:
 
 
 def whom_to_tell(task: Task) -> Task:
-    """The task in which a deadlock is raised: TASK, or where it cannot leave, the first that it waits for."""
-    while task.dynamic.held and task.wait is not None and task.wait.kind in ("end", "tasks"):
-        blocking = [other for other in awaited(task.wait) if other.status is None]
-        if not blocking or blocking[0] is task:
-            break
-        task = blocking[0]
+    """The task in which a deadlock is raised: TASK, or where it cannot leave, the one that it waits for."""
+    while task.wait is not None and task.wait.kind == LEAVING:
+        task = awaited(task.wait)[0]
     return task
 
 
 def awaited(wait: Wait) -> list[Task]:
-    """The tasks whose ends WAIT is for."""
-    return [wait.of] if wait.kind == "end" else list(wait.of)
+    """The tasks for whose ends WAIT is, those that are still to come."""
+    tasks = [wait.of] if isinstance(wait.of, Task) else wait.of
+    return [task for task in tasks if task.status is None]
 
 
 def waiting(task: Task, alive: list[Task]) -> Waiting:
@@ -97,14 +96,11 @@ def phrase(wait: Wait) -> str:
     of: Any = wait.of
     match wait.kind:
         case "events":
-            return " or ".join(f"{name_of(event)}" for event in of)
+            return " or ".join(f"{name_of(event)}" for event in of) or "none of no events"
         case "checkpoint":
             return f"checkpoint {prin1(of[1])} of {of[0].name}"
-        case "end":
-            return f"the end of {of.name}"
-        case "tasks":
-            left = [task.name for task in of if task.status is None]
-            return "the end of " + ", ".join(left)
+        case "end" | "tasks" | "leaving":
+            return "the end of " + ", ".join([task.name for task in awaited(wait)])
         case "sleep":
             return f"{prin1(of)} seconds to pass"
         case "condition":

@@ -91,6 +91,13 @@ class Wait:
         self.result = result
         self.withdraw()
 
+    @property
+    def how(self) -> str:
+        """How it ended, in a word."""
+        if not self.done:
+            return "left"
+        return "timeout" if self.result is False else "came"
+
     def withdraw(self) -> None:
         """Let no event wake it any more."""
         for event in self.events:

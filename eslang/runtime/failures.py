@@ -8,6 +8,8 @@ unwound (`signal_error`), so a procedure runs before anything is undone.
 
 from __future__ import annotations
 
+from sys import exception
+
 from eslang.base.calls import spread
 from eslang.base.control import Abort, AbortNow, EndTask, Failed, Retry, RetryNow, Stop, Unwind
 from eslang.base.errors import to_failure
@@ -31,6 +33,13 @@ from eslang.base.running import running
 from eslang.base.stack import STACK
 from eslang.base.symbols import Value
 from eslang.runtime.story import Asked, Story, as_place, capture_stack, has_come_far
+from eslang.runtime.telling import (
+    tell_cleanup,
+    tell_cleanup_end,
+    tell_recovery,
+    tell_recovery_end,
+    tell_taken,
+)
 
 HOST_CAUSES = (
     TYPE_ERROR,
@@ -141,13 +150,12 @@ def answer(failure: Failure, continuable: bool) -> Value:
     may hold it in a variable, or a circle of references would keep both.
     """
     session = running.session
-    dynamic: Dynamic = session.dynamic
+    hooks, dynamic = session.hooks, session.dynamic
     innermost = form = dynamic.forms
     while form is not None:
-        for index, (cause, limit, place, takes) in enumerate(form.clauses):
+        for index, (cause, limit, _, takes) in enumerate(form.clauses):
             if takes is not None:
-                if takes(failure):
-                    _offer(dynamic, form.outer, form.procedures[index], failure)
+                _offer(session, form, index, failure)
                 continue
             used = form.used[index]
             if used == limit or (
@@ -155,9 +163,8 @@ def answer(failure: Failure, continuable: bool) -> Value:
             ):
                 continue
             form.used[index] = used + 1
-            if session.hooks.listeners and not dynamic.quiet:
-                left = None if limit is None else limit - used - 1
-                session.hooks.tell("recovery", as_place(place), failure=failure, left=left)
+            if hooks.listeners or hooks.speakers:
+                tell_recovery(session, form.clauses[index], used, failure)
             procedure, arguments = form.procedures[index], failure.arguments
             dynamic.forms = form
             dynamic.answering.append(failure)
@@ -165,16 +172,20 @@ def answer(failure: Failure, continuable: bool) -> Value:
                 value = spread(procedure, arguments) if arguments else procedure()
             except Unwind as jump:
                 jump.failed = True
+                if hooks.listeners:
+                    tell_recovery_end(session, failure, jump, continuable)
                 raise
             finally:
                 dynamic.answering.pop()
                 dynamic.forms = innermost
+            if hooks.listeners:
+                tell_recovery_end(session, failure, value, continuable)
             if value.__class__ is RetryNow or value.__class__ is AbortNow:
                 dynamic.jumps.append(value)
-                return dynamic.jumps
-            if continuable:
-                return value
-            break
+                value = dynamic.jumps
+            elif not continuable:
+                break
+            return value
         form = form.outer
     give_up(session, failure, innermost)
 
@@ -182,19 +193,25 @@ def answer(failure: Failure, continuable: bool) -> Value:
 def give_up(session: Any, failure: Failure, innermost: Form | None) -> NoReturn:
     """Nothing answers FAILURE: tell its story, and leave the task."""
     failure.story = tell_story(failure, innermost, session.causes)
-    if session.hooks.listeners and not session.dynamic.quiet:
-        session.hooks.tell("failure", failure.story.place, failure=failure)
+    hooks = session.hooks
+    if (hooks.listeners or hooks.speakers) and not session.dynamic.quiet:
+        hooks.tell("failure", failure.story.place, failure=failure)
     raise Failed(failure)
 
 
-def _offer(dynamic: Dynamic, form: Form | None, procedure: Callable[..., Value], failure: Failure) -> None:
-    """Call what HANDLER-BIND has for FAILURE, with the chain set back to FORM; it declines by returning."""
-    saved, dynamic.forms = dynamic.forms, form
+def _offer(session: Any, form: Form, index: int, failure: Failure) -> None:
+    """Call what HANDLER-BIND, entered as FORM, has at INDEX for FAILURE; it declines by returning."""
+    clause, dynamic = form.clauses[index], session.dynamic
+    if clause.takes is None or not clause.takes(failure):
+        return
+    saved, dynamic.forms = dynamic.forms, form.outer
     dynamic.answering.append(failure)
     try:
-        procedure(failure)
+        form.procedures[index](failure)
     except Unwind as jump:
         jump.failed = True
+        if session.hooks.listeners:
+            tell_taken(session, clause, failure)
         raise
     finally:
         dynamic.answering.pop()
@@ -303,13 +320,29 @@ def is_stronger(jump: Unwind, second: Unwind) -> bool:
 
 
 def clean(cleanup: Callable[[], Value]) -> Value:
-    """Run CLEANUP, which interrupts from outside it must wait for."""
-    dynamic: Dynamic = running.session.dynamic
+    """Run CLEANUP, which interrupts from outside it must wait for.
+
+    What ends a task goes on although a cleanup jumps out: nothing survives an abort.
+    """
+    session = running.session
+    dynamic: Dynamic = session.dynamic
+    ending = None if dynamic.held else exception()  # inside a cleanup, this one is not on its way
+    tells, left = bool(session.hooks.listeners), True
+    if tells:
+        tell_cleanup(session)
     dynamic.held += 1
     try:
-        return guarded(cleanup)
+        value = guarded(cleanup)
+        left = False
+        return value
+    except Unwind as second:
+        if not (isinstance(ending, EndTask | Stop) and is_stronger(ending, second)):
+            raise
+        return None
     finally:
         dynamic.held -= 1
+        if tells:
+            tell_cleanup_end(session, left)
 
 
 SUPPORT = {"%signal-error": signal_error, "%clean": clean}  # what compiled code calls
@@ -329,7 +362,7 @@ def run_apart(body: Callable[[], Value]) -> Value:
         if STACK.raised:
             STACK.give_back()
     hooks = running.session.hooks
-    if hooks.listeners and not dynamic.quiet:
+    if (hooks.listeners or hooks.speakers) and not dynamic.quiet:
         hooks.tell("aborted", None, failure=failure)
     raise failure
 

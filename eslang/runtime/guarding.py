@@ -24,16 +24,16 @@ def run_guarded(
 
     def alarm(ended: Task) -> None:
         if ended.status is not ABORTED and extent.live:
-            scheduler.interrupt(task, Interrupt("guardian", action, extent))
+            scheduler.interrupt(task, Interrupt("guardian", action, extent, by=ended))
 
     guard.on_end = alarm
     guard.seen = True
-    scheduler.lives.start(guard)
+    scheduler.lives.start(guard, "guardian")
     try:
         return failures.guarded(body)
     finally:
         extent.live = False
-        scheduler.lives.abort_all(task, [guard])
+        scheduler.lives.abort_all(task, [guard], "guardian")
 
 
 def run_until(

@@ -10,6 +10,7 @@ from __future__ import annotations
 from eslang.base.control import EndTask, Failed, Stop, Unwind
 from eslang.base.failure import Failure, control_error
 from eslang.base.hints import TYPE_CHECKING, Any, Callable
+from eslang.base.running import running
 from eslang.base.symbols import Keyword, Value
 from eslang.runtime import failures
 from eslang.runtime.events import Wait
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from eslang.runtime.scheduler import Scheduler
 
 SPARE = 64  # stacks that are kept for tasks to come
+LEAVING = "leaving"  # the kind of a wait for the end of one that was aborted, which nothing cuts short
 
 
 class End:
@@ -63,20 +65,22 @@ class Lives:
         task.dynamic.logical = self.session.dynamic.logical
         if self.session.bindings.hidden is not None:
             task.kept = self.session.bindings.copy()
-        self.count += 1
         return task
 
-    def start(self, task: Task) -> None:
+    def start(self, task: Task, role: str) -> None:
         """Let TASK, which belongs to its parent or else to the run, have its first turn."""
         owner = task.parent
+        self.count += 1
         if owner is None:
             self.tops[task] = None
         elif owner.children is None:
             owner.children = {task: None}
         else:
             owner.children[task] = None
-        self.tell("task-started", about=task, parent=owner)
+        self.tell("task-started", about=task, parent=owner, role=role, daemon=task.daemon)
         self.scheduler.make_ready(task)
+        if task.ending is not None and task.status is None:
+            self._end_unborn(task)
 
     def step(self, task: Task) -> None:
         """Let TASK have its turn, from the driver."""
@@ -155,23 +159,25 @@ class Lives:
             return values
         finally:
             if task.children:
-                self.abort_all(task, list(task.children))
+                self.abort_all(task, list(task.children), "owner")
 
     def _await_children(self, task: Task) -> None:
-        """Wait for those that TASK has spawned; daemons are aborted. An unseen failure is TASK's own."""
-        children = list(task.children or ())
-        for child in children:
-            if child.daemon:
-                self.abort(child)
-        for child in children:
-            self.await_end(task, child)
+        """Wait for those that TASK has spawned; then daemons are aborted. An unseen failure is TASK's own."""
+        while task.children:
+            children = [child for child in task.children if not child.daemon]
+            if not children:
+                children = list(task.children)
+                for child in children:
+                    self.abort(child, "owner")
+            for child in children:
+                self.await_end(task, child)
         if task.unseen is not None and not task.unseen.seen:
             failures.signal(passed_on(task.unseen), continuable=True)
 
     def _lost(self) -> Failure:
         """The failure of a task that was left by a jump whose target is in another."""
         failure = control_error("this jump leads out of the task that makes it")
-        self.tell("failure", failure=failure)
+        self.session.hooks.tell("failure", None, failure=failure)
         return failure
 
     def end(self, task: Task, status: Keyword) -> None:
@@ -206,27 +212,33 @@ class Lives:
 
     def obey(self, task: Task, interrupt: Interrupt) -> None:
         """Do what INTERRUPT asks of TASK, the current one, on top of its stack."""
-        self.tell("interrupt", why=interrupt.kind)
+        self.tell("interrupt", why=interrupt.kind, by=interrupt.by)
+        left = True
         try:
             failures.guarded(interrupt.action)
+            left = False
         except Unwind as jump:
             jump.failed = True  # what it leaves is cleaned up
             raise
+        finally:
+            self.tell("interrupt-ended", why=interrupt.kind, left=left)
 
-    def abort(self, task: Task) -> None:
-        """Let TASK leave everything, with its cleanups; once is enough."""
+    def abort(self, task: Task, why: str, by: Task | None = None) -> None:
+        """Let TASK leave everything, with its cleanups; once is enough. BY whom, and WHY, is told."""
         if task.status is not None or task.ending is not None:
             return
-        self.tell("abort", of=task)
+        self.tell("abort", of=task, why=why, by=by or self.scheduler.current)
         task.ending = EndTask(task)
-        if task.stack is None and task is not self.scheduler.current and task.wait is None:
-            self._end_unborn(task)
-        else:
+        if task.stack is not None or task is self.scheduler.current or task.wait is not None:
             self.scheduler.make_ready(task)
+        elif task.queued:
+            self._end_unborn(task)
 
     def _end_unborn(self, task: Task) -> None:
         """End TASK, which has not begun."""
         scheduler = self.scheduler
+        task.queued = False
+        scheduler.ready.remove(task)
         current, kept = scheduler.current, self.session.bindings.take_off()
         self.end(task, ABORTED)
         scheduler.current = current
@@ -234,20 +246,20 @@ class Lives:
 
     # --- waiting for ends --------------------------------------------------------
 
-    def await_end(self, task: Task, other: Task) -> None:
+    def await_end(self, task: Task, other: Task, kind: str = "end") -> None:
         """Let TASK, the current one, wait until OTHER has ended."""
         if other.status is None:
             event = other.checkpoint_event(END, None)
-            self.scheduler.wait(Wait(task, "end", other, (event,)))
+            self.scheduler.wait(Wait(task, kind, other, (event,)))
 
-    def abort_all(self, task: Task, others: list[Task]) -> None:
+    def abort_all(self, task: Task, others: list[Task], why: str) -> None:
         """Abort OTHERS, and let TASK, the current one, wait until they have ended; nothing holds it up."""
         for other in others:
-            self.abort(other)
+            self.abort(other, why)
         task.dynamic.held += 1
         try:
             for other in others:
-                self.await_end(task, other)
+                self.await_end(task, other, LEAVING)
         finally:
             task.dynamic.held -= 1
 
@@ -255,7 +267,7 @@ class Lives:
         """Tell the listeners, if there are any, where the current task stands."""
         hooks = self.session.hooks
         if hooks.listeners:
-            hooks.tell(kind, place_here(), **told)
+            hooks.tell(kind, place_here() if self.scheduler.current is not None else None, **told)
 
 
 def passed_on(task: Task) -> Failure:
@@ -266,4 +278,5 @@ def passed_on(task: Task) -> Failure:
     failure.condition = first.condition
     failure.origin = task
     task.seen = True
+    running.session.scheduler.lives.tell("failure-passed", failure=failure, of=task)
     return failure

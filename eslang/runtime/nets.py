@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from eslang.base.hints import TYPE_CHECKING, Callable
 from eslang.runtime.events import Wait
+from eslang.runtime.lives import LEAVING
 from eslang.runtime.tasks import FAILED, SUCCEEDED, Task
 
 if TYPE_CHECKING:
@@ -35,22 +36,24 @@ class Net:
         for member in self.members:
             member.on_end = self.note_end
             member.seen = True
-            lives.start(member)
+            lives.start(member, "member")
         try:
             if self.left:
                 self.wait = Wait(task, "tasks", self.members)
                 self.scheduler.wait(self.wait)
         finally:
             if self.left:
-                lives.abort_all(task, self.members)
+                lives.abort_all(task, self.members, "net")
 
     def note_end(self, member: Task) -> None:
         """MEMBER has ended; the others are aborted if that decides it."""
         self.left -= 1
         if self.deciding is None and self.rule(self, member):
             self.deciding = member
+            if self.wait is not None:
+                self.wait.kind = LEAVING
             for other in self.members:
-                self.scheduler.lives.abort(other)
+                self.scheduler.lives.abort(other, "net", member)
         if not self.left and self.wait is not None:
             self.scheduler.end_wait(self.wait, None)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from _thread import get_ident
 
-from eslang.base.control import Stop
+from eslang.base.control import EndTask, Stop
 from eslang.base.failure import Failure, control_error
 from eslang.base.hints import Any, Callable
 from eslang.base.symbols import Keyword, Value
@@ -44,10 +44,11 @@ class Runs:
         if self.scheduler.current is not None:
             return body()
         root = self.root = self.lives.create(name, body)
+        self.lives.count += 1
         root.is_root = root.seen = True
         scheduler = self.scheduler
         scheduler.enter(root)
-        self.lives.tell("task-started", about=root, parent=None)
+        self.lives.tell("task-started", about=root, parent=None, role="main", daemon=False)
         status: Keyword = ABORTED
         try:
             result = body()
@@ -56,8 +57,16 @@ class Runs:
         except Failure as failure:
             root.failure, status = failure, FAILED
             raise
+        except EndTask:
+            raise self._aborted() from None
         finally:
             self._leave(root, status)
+
+    def _aborted(self) -> Failure:
+        """What a call that one of its tasks has aborted fails with."""
+        failure = Failure(ABORTED)
+        self.session.hooks.tell("aborted", None, failure=failure)
+        return failure
 
     def _leave(self, root: Task, status: Keyword) -> None:
         """ROOT has ended; nothing is on a task's stack any more."""
@@ -92,15 +101,15 @@ class Runs:
     def abort_all(self) -> None:
         """Abort all that belongs to the run, and wait until it has ended."""
         for task in list(self.lives.tops):
-            self.lives.abort(task)
+            self.lives.abort(task, "run")
         self.drive_until(lambda: not self.lives.tops)
 
     def drive_until(self, done: Callable[[], bool]) -> None:
-        """Let tasks run, outside of any, until DONE. Raises Stop if they were stopped."""
+        """Let tasks run, outside of any, until DONE. Raises Stop if they were stopped, and have all ended."""
         scheduler = self.scheduler
         if not done():
             try:
-                scheduler.drive(done=done)
+                scheduler.drive(done=lambda: done() if self.stopped is None else not self.lives.tops)
             finally:
                 scheduler.calm_down()
         if self.stopped is not None:
@@ -109,19 +118,21 @@ class Runs:
 
     def stop(self, stop: Stop) -> None:
         """Let the root end with STOP; where there is none, all that belongs to the run."""
+        self.lives.tell("run-stopped", reason=stop.reason, code=stop.code)
         if self.root is not None:
             self.root.ending = stop
             self.scheduler.make_ready(self.root)
         else:
             self.stopped = stop
             for task in list(self.lives.tops):
-                self.lives.abort(task)
+                self.lives.abort(task, "run")
 
     def end_deadlock(self) -> None:
         """Nothing can wake anything: the task that the run waits for fails with :deadlock."""
         roots = [*([self.root] if self.root is not None else []), *self.lives.tops]
         failure = deadlock(family(roots))
-        task = whom_to_tell(roots[0])
+        task = whom_to_tell(next((each for each in roots if not each.daemon), roots[0]))
+        self.lives.tell("deadlock", failure=failure, waiting=failure.report.waiting, to=task)
 
         def fail() -> None:
             failures.signal(failure, continuable=False)

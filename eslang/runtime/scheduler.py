@@ -23,6 +23,7 @@ from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable
 from eslang.runtime import failures
 from eslang.runtime.events import Wait
 from eslang.runtime.lives import Lives
+from eslang.runtime.story import place_here
 from eslang.runtime.tasks import Interrupt, Task
 from eslang.runtime.ticks import Ticks
 from eslang.runtime.timers import Timer, Timers
@@ -76,7 +77,11 @@ class Scheduler:
             task.kept, task.depth, depth[0] = session.bindings.take_off(), depth[0], 0
         self.current = None
         if task.stack is self.driver:
-            self.drive(task)
+            try:
+                self.drive(task)
+            except BaseException:  # what no task could answer
+                self.enter(task)
+                raise
         else:
             self.turns -= 1
             ready = self.ready
@@ -172,10 +177,13 @@ class Scheduler:
             watching, self.watching = self.watching, []
             self.wake(watching)
 
-    def watch(self, wait: Wait) -> None:
-        """Let WAIT, whose condition does not hold, look at it again after the next step."""
+    def watch(self, wait: Wait, again: bool) -> None:
+        """Let WAIT, whose condition does not hold, look at it again after the next step that does something.
+
+        This step did nothing else if it only looked AGAIN.
+        """
         self.watching.append(wait)
-        self.looking = True
+        self.looking = again
         self.turns = 0
 
     def safepoint(self) -> None:
@@ -218,31 +226,37 @@ class Scheduler:
     def wait(self, wait: Wait) -> Any:
         """Wait until WAIT, the current task's, is over; its result."""
         task = wait.task
-        outer, task.wait = task.wait, wait
+        outer, task.wait, again = task.wait, wait, False
         hooks = self.session.hooks
-        if hooks.listeners:
-            hooks.tell("wait", on=wait.kind, of=wait.of)
         try:
+            if hooks.listeners:
+                hooks.tell("wait", place_here(), on=wait.kind, of=wait.of)
             while True:
                 if task.interrupts or task.ending is not None:
-                    self.attend(task)
-                if wait.done or (wait.test is not None and self.considers(wait)):
+                    again = not self.attend(task) and again
+                if wait.done or (wait.test is not None and self.considers(wait, again)):
                     return wait.result
                 self.pause(task)
+                again = True
         finally:
             task.wait = outer
             if not wait.done:
                 wait.withdraw()
+            if hooks.listeners:
+                hooks.tell("resume", on=wait.kind, of=wait.of, how=wait.how)
 
-    def attend(self, task: Task) -> None:
-        """Do what interrupts ask of TASK, the current one, if nothing holds them off."""
+    def attend(self, task: Task) -> bool:
+        """Do what interrupts ask of TASK, the current one, if nothing holds them off; true if any did."""
+        obeyed = False
         while task.interrupts or task.ending is not None:
             if task.ending is not None and task.may_end():
                 raise task.ending
             interrupt = task.next_interrupt()
             if interrupt is None:
-                return
+                break
+            obeyed = True
             self.lives.obey(task, interrupt)
+        return obeyed
 
     def wake(self, waits: Iterable[Wait]) -> None:
         """Make the tasks of WAITS ready, in their order."""
@@ -252,8 +266,8 @@ class Scheduler:
                 task.queued = True
                 self.ready.append(task)
 
-    def considers(self, wait: Wait) -> bool:
-        """Ask the test of WAIT, in its task; true if that ends it. A condition is looked at again later."""
+    def considers(self, wait: Wait, again: bool) -> bool:
+        """Ask the test of WAIT, in its task; true if that ends it. A condition is looked at AGAIN later."""
         if wait.kind != CONDITION:
             return wait.consider()
         touched = self.session.touched
@@ -261,7 +275,7 @@ class Scheduler:
             wait.end(True)
         elif not wait.done:
             wait.outside = self.session.touched != touched
-            self.watch(wait)
+            self.watch(wait, again)
         return wait.done
 
     def sleep(self, seconds: float, kind: str = "sleep") -> None:
@@ -289,6 +303,8 @@ class Scheduler:
     def interrupt(self, task: Task, interrupt: Interrupt) -> None:
         """Let TASK do what INTERRUPT says, where it stands, at its next step."""
         if task.status is None:
+            interrupt.by = interrupt.by or self.current
+            self.lives.tell("interrupt-sent", to=task, why=interrupt.kind, by=interrupt.by)
             task.interrupts.append(interrupt)
             self.make_ready(task)
 

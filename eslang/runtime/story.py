@@ -117,6 +117,18 @@ def place_here() -> Place | None:
     return nearest_place(sys._getframe(1))
 
 
+def place_raised(error: BaseException) -> Place | None:
+    """The innermost place that ERROR has passed; if none yet, where the running plan stands."""
+    innermost: TracebackType | None = None
+    trace: TracebackType | None = error.__traceback__
+    while trace is not None:
+        if is_lisp(trace.tb_frame):
+            innermost = trace
+        trace = trace.tb_next
+    place = None if innermost is None else place_of(innermost.tb_frame.f_code, innermost.tb_lasti)
+    return place or place_here()
+
+
 def has_come_far(error: BaseException) -> bool:
     """True if ERROR has passed so many frames that to look at them at each border would take too long."""
     trace: TracebackType | None = error.__traceback__

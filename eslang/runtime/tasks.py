@@ -38,7 +38,7 @@ class Extent:
 class Interrupt:
     """Something that a task is to do where it stands, at its next step."""
 
-    __slots__ = ("action", "extent", "kind", "level", "urgent")
+    __slots__ = ("action", "by", "extent", "kind", "level", "urgent")
 
     def __init__(
         self,
@@ -48,12 +48,14 @@ class Interrupt:
         *,
         level: int = 0,
         urgent: bool = False,
+        by: Task | None = None,
     ) -> None:
         self.kind = kind  # "abort", "guardian", "deadline", …
         self.action = action
         self.extent = extent
         self.level = extent.level if extent is not None else level
         self.urgent = urgent  # WITHOUT-INTERRUPTS does not hold it off
+        self.by = by  # the task it comes from, if any
 
 
 class Task(Event):

@@ -25,6 +25,7 @@ class Ticks:
     def __init__(self, safepoint: Callable[[], None]) -> None:
         self.pending: Stop | None = None  # what the run is to end with
         self.safepoint = safepoint
+        self.watch_calls = True  # a pending stop is to be found at calls, too
         self.source = self.make()  # what compiled loops iterate over
 
     def make(self) -> Iterator[None]:
@@ -46,12 +47,13 @@ class Ticks:
     def stop(self, stop: Stop) -> None:
         """Let the run end, soon; safe to call from a signal handler."""
         self.pending = stop
-        sys.setprofile(self._at_call)
+        if self.watch_calls:
+            sys.setprofile(self._at_call)
 
     def take(self) -> Stop | None:
         """The pending stop, which the caller is to see to."""
         stop, self.pending = self.pending, None
-        if stop is not None:
+        if stop is not None and self.watch_calls:
             sys.setprofile(None)
         return stop
 

@@ -62,7 +62,7 @@ def silence(stream: TextIO) -> None:
 
 
 class Opened:
-    """An interpreter with LISTENER, as CHOSEN wants it; closed at the end."""
+    """An interpreter as CHOSEN wants it, where LISTENER speaks; closed at the end."""
 
     def __init__(self, chosen: Chosen, listener: Callable[[Any], None] | None) -> None:
         from eslang.interpreter import Interpreter
@@ -74,13 +74,15 @@ class Opened:
         if clock not in ("real", "virtual"):
             raise Usage(f"`--clock` is `real` or `virtual`, not `{clock}`")
         seed = seed_of(chosen)
-        listeners = [listener] if listener is not None else []
+        listeners: list[Callable[[Any], None]] = []
         self.stream = trace_stream(chosen)
         if self.stream is not None:
             from eslang.tools.tracing import Tracer
 
             listeners.append(Tracer(self.stream))
         self.interp = Interpreter(seed=seed, clock=clock, output=Outlet(sys.stdout), listeners=listeners)
+        if listener is not None:
+            self.interp.hooks.speakers.append(listener)
 
     def __enter__(self) -> Any:
         if not gc.isenabled():

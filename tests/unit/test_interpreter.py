@@ -220,7 +220,7 @@ def test_listeners_are_told_of_failures_and_goals() -> None:
         with pytest.raises(Failure):
             agent.eval("(fail :stuck)")
     told = [event for event in heard if not event.kind.startswith("task-")]
-    assert [event.kind for event in told] == ["recovery", "goal", "failure", "aborted"]
+    assert [event.kind for event in told] == ["recovery", "recovery-ended", "goal", "failure", "aborted"]
     recovery = told[0]
     assert (recovery.data["failure"].cause, recovery.data["left"]) == (Keyword("SLIPPED"), 1)
     assert set(recovery._fields) == {"kind", "time", "task", "form", "data"}
@@ -233,7 +233,12 @@ def test_a_listener_may_come_and_go() -> None:
         agent.eval("(with-recovery-procedures ((:x 1)) (fail :x))")
         agent.hooks.listeners.remove(told.append)
         agent.eval("(with-recovery-procedures ((:x 1)) (fail :x))")
-    assert [event.kind for event in told] == ["task-started", "recovery", "task-ended"]
+    assert [event.kind for event in told] == [
+        "task-started",
+        "recovery",
+        "recovery-ended",
+        "task-ended",
+    ]
 
 
 def test_nothing_is_printed_without_a_listener_that_prints() -> None:

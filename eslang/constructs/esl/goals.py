@@ -10,6 +10,7 @@ from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.compile.registry import CL, ESL, function, macro
 from eslang.constructs.esl.conditions import instance_form, term_form, test_form
 from eslang.runtime import failures
+from eslang.runtime.story import place_here
 
 NO_APPLICABLE_METHOD = Keyword("NO-APPLICABLE-METHOD")
 CONDITION_NOT_ACHIEVED = Keyword("CONDITION-NOT-ACHIEVED")
@@ -103,18 +104,25 @@ def define_goal(pattern: Value, methods: Value) -> Value:
 @function("(%achieve condition instance test)", ESL)
 def achieve_function(condition: Value, instance: Value, test: Value) -> Value:
     """Achieve CONDITION, which TEST tells; INSTANCE gives it with its arguments computed."""
-    tell = running.session.hooks.tell
     if test() is not None:
-        tell("goal", None, state="no-action", condition=condition)
+        _tell("no-action", condition)
         return None
-    tell("goal", None, state="attempting", condition=condition)
+    _tell("attempting", condition)
     bindings, methods = _methods(condition, instance)
     if methods is None or not _ran(bindings, methods):
         return failures.signal(Failure(NO_APPLICABLE_METHOD, condition), continuable=True)
     if test() is None:
         return failures.signal(Failure(CONDITION_NOT_ACHIEVED, condition), continuable=True)
-    tell("goal", None, state="achieved", condition=condition)
+    _tell("achieved", condition)
     return T
+
+
+def _tell(state: str, condition: Value) -> None:
+    """Tell how the goal CONDITION stands."""
+    hooks = running.session.hooks
+    if hooks.listeners or hooks.speakers:
+        place = place_here() if hooks.listeners else None
+        hooks.tell("goal", place, state=state, condition=condition)
 
 
 def _methods(condition: Value, instance: Value) -> tuple[dict[Symbol, Value], Value]:

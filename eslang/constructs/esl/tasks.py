@@ -89,7 +89,7 @@ def spawn_function(body: Any, promises: Value, called: Value, *options: Value) -
         owner = None
     task = make_task(called if name is None else name, body, promises, owner)
     task.daemon = daemon is not None
-    scheduler.lives.start(task)
+    scheduler.lives.start(task, "spawned")
     return task
 
 
@@ -162,7 +162,7 @@ def abort_task(other: Value) -> Value:
     """
     task = as_task(other, "abort-task")
     scheduler = running.session.scheduler
-    scheduler.lives.abort(task)
+    scheduler.lives.abort(task, "abort-task")
     if task is scheduler.current:
         scheduler.attend(task)
     return None

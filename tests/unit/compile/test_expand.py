@@ -34,7 +34,7 @@ def test_no_recovery_procedure_answers_an_expander() -> None:
     heard: list[str] = []
     interp = Interpreter(clock="virtual", listeners=[lambda event: heard.append(event.kind)])
     assert str(interp.eval(text)) == ":ASKED-ONCE"
-    assert [kind for kind in heard if not kind.startswith("task-")] == ["recovery"]
+    assert [kind for kind in heard if not kind.startswith("task-")] == ["recovery", "recovery-ended"]
 
 
 def test_an_expansion_without_end_is_refused() -> None:

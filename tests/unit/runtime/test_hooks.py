@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from eslang import Failure, Interpreter
-from eslang.runtime.hooks import Event, Hooks
+from eslang.runtime.hooks import SPOKEN, Event, Hooks
 
 
 def test_every_listener_hears_every_event_in_order() -> None:
@@ -31,6 +31,15 @@ def test_an_event_tells_when_where_and_what() -> None:
     assert heard == [Event("goal", 2.5, "task", "place", {"state": "achieved"})]
 
 
+def test_a_speaker_hears_only_what_the_papers_print() -> None:
+    hooks = Hooks(lambda: 0.0, lambda: "task")
+    heard: list[str] = []
+    hooks.speakers.append(lambda event: heard.append(event.kind))
+    for kind in ("wait", "recovery", "signal", "failure"):
+        hooks.tell(kind)
+    assert heard == ["recovery", "failure"]
+
+
 def test_a_listener_may_leave_while_it_is_told() -> None:
     hooks = Hooks(lambda: 0.0, lambda: "task")
     heard: list[str] = []
@@ -51,7 +60,7 @@ def events_of(text: str) -> list[tuple[str, Any]]:
 
     def listen(event: Event) -> None:
         left = event.data.get("left", event.data.get("state"))
-        if not event.kind.startswith("task-"):
+        if event.kind in SPOKEN:
             heard.append((event.kind, left))
 
     with Interpreter(clock="virtual", output=StringIO(), listeners=[listen]) as interp:

@@ -1,0 +1,204 @@
+"""Every kind of event that listeners hear of: when, and with which parts.
+
+One table serves listeners' authors, docs/reference/events.md, and the test
+that nothing else is told anywhere. The kernel does not need it to run.
+"""
+
+from __future__ import annotations
+
+from eslang.base.hints import NamedTuple
+
+
+class Part(NamedTuple):
+    """One part of what an event tells: its name, its type, and what it means."""
+
+    name: str
+    type: str  # "X | None" if it may be missing
+    meaning: str
+
+
+class Kind(NamedTuple):
+    """One kind of event: when it is told, what `form` is, and the parts of `data`."""
+
+    name: str
+    when: str
+    form: str
+    parts: tuple[Part, ...] = ()
+
+
+HERE = "where the task stands"
+FAILURE = Part("failure", "Failure", "the failure; its `origin` is the task that it was passed on from")
+WAIT_ON = Part(
+    "on",
+    "str",
+    "the kind of the wait: `events`, `checkpoint`, `end`, `tasks`, `leaving`, `condition`, `sleep`, `period`, …",
+)
+WAIT_OF = Part(
+    "of",
+    "value",
+    "what belongs to it: the events, (task, checkpoint), the task or tasks, the condition, the seconds",
+)
+WHY_INTERRUPT = Part("why", "str", "`guardian`, `deadline`, `deadlock`, `interrupt-task`, …")
+INTERRUPT_BY = Part("by", "Task | None", "the task that it comes from; none for a clock's")
+WAKES = Part("wakes", "list[Task]", "the tasks that waited for it, in their order")
+RAISED = Part("raised", "Place | None", "where the failure was raised")
+
+TABLE = (
+    # --- the lives of tasks
+    Kind(
+        "task-started",
+        "a task is about to have its first turn",
+        "the form that starts it",
+        (
+            Part("about", "Task", "the new task"),
+            Part("parent", "Task | None", "the task that it belongs to; none for those of the run"),
+            Part("role", "str", "`main`, `member` (of a net or OR-PARALLEL), `guardian`, `spawned`"),
+            Part("daemon", "bool", "the run, or its owner, does not wait for it"),
+        ),
+    ),
+    Kind(
+        "task-ended",
+        "a task has ended, its cleanups and its children included",
+        "none",
+        (
+            Part("about", "Task", "the task"),
+            Part("status", "Keyword", "`:succeeded`, `:failed` or `:aborted`"),
+            Part("failure", "Failure | None", "what it failed with"),
+        ),
+    ),
+    Kind(
+        "abort",
+        "a task is asked to leave everything; it does so at its next step",
+        HERE,
+        (
+            Part("of", "Task", "the task that is aborted"),
+            Part(
+                "why",
+                "str",
+                "`abort-task`; `net`: its net is decided; `guardian`: what it guarded is over; "
+                "`owner`: its owner ends; `run`: the run does",
+            ),
+            Part("by", "Task | None", "the task that asks for it, or whose end decided it"),
+        ),
+    ),
+    # --- waits and signals
+    Kind("wait", "a task begins to wait; the wait may be over at once", HERE, (WAIT_ON, WAIT_OF)),
+    Kind(
+        "resume",
+        "a wait of the task is over",
+        "none",
+        (
+            WAIT_ON,
+            WAIT_OF,
+            Part(
+                "how",
+                "str",
+                "`came`: what it waited for; `timeout`: the time was over; `left`: a jump led out of it",
+            ),
+        ),
+    ),
+    Kind(
+        "signal",
+        "the task signals an event",
+        HERE,
+        (Part("event", "Event", "the event"), Part("arguments", "list", "what goes with it"), WAKES),
+    ),
+    Kind(
+        "checkpoint", "the task passes a checkpoint", HERE, (Part("id", "value", "which of its own"), WAKES)
+    ),
+    Kind(
+        "period-missed",
+        "PERIODICALLY skips periods that are over already",
+        HERE,
+        (Part("missed", "int", "how many"), Part("seconds", "float", "how long each is")),
+    ),
+    # --- interrupts
+    Kind(
+        "interrupt-sent",
+        "a task is to be interrupted, at its next step",
+        "where the sender stands",
+        (Part("to", "Task", "the task"), WHY_INTERRUPT, INTERRUPT_BY),
+    ),
+    Kind(
+        "interrupt",
+        "the task is interrupted, and does now what it is to do",
+        HERE,
+        (WHY_INTERRUPT, INTERRUPT_BY),
+    ),
+    Kind(
+        "interrupt-ended",
+        "the task has done so, and goes on where it stood",
+        HERE,
+        (WHY_INTERRUPT, Part("left", "bool", "it does not go on: a jump led out")),
+    ),
+    # --- failures
+    Kind(
+        "recovery",
+        "a recovery procedure is called",
+        "its clause",
+        (FAILURE, Part("left", "int | None", "how many retries it has left; none: infinite"), RAISED),
+    ),
+    Kind(
+        "recovery-ended",
+        "the recovery procedure has ended",
+        "none",
+        (
+            FAILURE,
+            Part(
+                "how",
+                "str",
+                "`retry`, `abort`; `left`: by another jump; `continued`: FAIL returned its value; "
+                "`declined`: it ran off its end, and the failure goes on",
+            ),
+        ),
+    ),
+    Kind(
+        "failure-taken",
+        "a clause of HANDLER-CASE or the like takes a failure",
+        "the clause",
+        (FAILURE, RAISED),
+    ),
+    Kind(
+        "failure",
+        "no recovery procedure is left for a failure; nothing is unwound yet",
+        "where it was raised",
+        (FAILURE,),
+    ),
+    Kind(
+        "failure-passed",
+        "a task fails because of another: the failure is about to be signalled in it",
+        HERE,
+        (FAILURE, Part("of", "Task", "the task that failed first")),
+    ),
+    Kind("aborted", "what was entered from outside was left with a failure", "none", (FAILURE,)),
+    Kind("cleanup-started", "a cleanup begins", HERE),
+    Kind("cleanup-ended", "the cleanup is over", "none", (Part("left", "bool", "a jump led out of it"),)),
+    Kind(
+        "deadlock",
+        "nothing can wake any task any more",
+        "none",
+        (
+            FAILURE,
+            Part("waiting", "tuple[Waiting, ...]", "each task, what it waits for, where, and why in vain"),
+            Part("to", "Task", "the task in which the failure is raised"),
+        ),
+    ),
+    # --- goals and the run
+    Kind(
+        "goal",
+        "ACHIEVE is at work",
+        HERE,
+        (
+            Part("state", "str", "`no-action`, `attempting`, `achieved`"),
+            Part("condition", "value", "the condition"),
+        ),
+    ),
+    Kind(
+        "run-stopped",
+        "the run is to end: Ctrl-C, the time limit, QUIT",
+        HERE,
+        (Part("reason", "str", "why"), Part("code", "int", "the exit code")),
+    ),
+)
+
+KINDS = {kind.name: kind for kind in TABLE}
