@@ -309,6 +309,8 @@ class Interpreter:
     def interrupt(self, reason: str = "interrupted", code: int = 130) -> None:
         """Stop what runs, soon, with its cleanups; safe to call from a signal handler."""
         self.ticks.stop(Stop(reason, code))
+        self.scheduler.post(lambda: None)  # whoever rests is to look
+        self.scheduler.post(lambda: None)  # it may sleep
 
     def door(self) -> Door:
         """Inside it, this interpreter is at work for Python code. Raises Failure if it is closed."""
