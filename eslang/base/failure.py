@@ -57,12 +57,15 @@ class Failure(Exception):
         return f"#<FAILURE {self.cause}>" if settings.escape else message_of(self)
 
 
-def type_error(datum: Any, expected: str, operator: str | None = None) -> Failure:
+def type_error(datum: Any, expected: str | Symbol, operator: str | Symbol | None = None) -> Failure:
     """DATUM is not of the type EXPECTED; arguments (datum expected [operator])."""
-    arguments = [datum, Symbol.intern(expected.upper(), "COMMON-LISP")]
-    if operator is not None:
-        arguments.append(Symbol.intern(operator.upper(), "COMMON-LISP"))
-    return Failure(TYPE_ERROR, *arguments)
+    names = [expected] if operator is None else [expected, operator]
+    return Failure(TYPE_ERROR, datum, *[standard_name(name) for name in names])
+
+
+def standard_name(name: str | Symbol) -> Symbol:
+    """NAME as a symbol: of Common Lisp, unless it is one already."""
+    return Symbol.intern(name.upper(), "COMMON-LISP") if name.__class__ is str else name  # type: ignore[return-value]
 
 
 def division_by_zero(operator: str, *operands: Any) -> Failure:

@@ -48,6 +48,8 @@ _PARENTS = {
     "STREAM": "ATOM",
     "STRING-STREAM": "STREAM",
     "STRUCTURE-OBJECT": "ATOM",
+    "EVENT": "ATOM",
+    "TASK": "EVENT",
 }
 _SAME = {
     "SIGNED-BYTE": "INTEGER",

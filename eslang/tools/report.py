@@ -58,7 +58,10 @@ def failure_report(failure: Failure, interp: Any = None, colour: bool = False) -
 def sentence_of(failure: Failure) -> str:
     """What a failure of the host means, in words; empty for a plan's own failures."""
     words = message_of(failure)
-    return "" if words.startswith("Failure ") else words[0].lower() + words[1:].rstrip(".")
+    if words.startswith("Failure "):
+        return ""
+    begins_with_name = words[1:2].isupper()
+    return (words[0] if begins_with_name else words[0].lower()) + words[1:].rstrip(".")
 
 
 def near_name(failure: Failure, interp: Any) -> str | None:

@@ -5,10 +5,12 @@ from __future__ import annotations
 from eslang.base.failure import type_error
 from eslang.base.hashing import equal_key
 from eslang.base.running import running
-from eslang.base.symbols import Value
+from eslang.base.symbols import Symbol, Value
 from eslang.compile.registry import ESL, function
 from eslang.runtime.events import Wait
 from eslang.runtime.tasks import Task
+
+TASK = Symbol.intern("TASK", ESL)
 
 
 @function("(checkpoint id)", ESL)
@@ -89,5 +91,5 @@ def wait_for_task(other: Value) -> Value:
 def as_task(value: Value, operator: str) -> Task:
     """VALUE, which is to be a task."""
     if not isinstance(value, Task):
-        raise type_error(value, "TASK", operator)
+        raise type_error(value, TASK, Symbol.intern(operator.upper(), ESL))
     return value

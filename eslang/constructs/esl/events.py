@@ -13,7 +13,9 @@ from eslang.runtime.events import Event, Wait
 from eslang.runtime.tasks import Task
 
 DEFVAR, QUOTE = (Symbol.intern(name, CL) for name in ("DEFVAR", "QUOTE"))
-MAKE_EVENT = Symbol.intern("MAKE-EVENT", ESL)
+EVENT, MAKE_EVENT, SIGNAL, WAIT_FOR_EVENTS = (
+    Symbol.intern(name, ESL) for name in ("EVENT", "MAKE-EVENT", "SIGNAL", "WAIT-FOR-EVENTS")
+)
 
 
 @function("(make-event &optional name)", ESL)
@@ -54,7 +56,8 @@ def defevent(form: Cons, environment: Any) -> Value:
 def wait_for_events_values(events: Value, test: Value = None) -> Value:
     """All the arguments that came with the signal."""
     scheduler = running.session.scheduler
-    wanted = (events,) if isinstance(events, Event) else tuple(map(as_event, items(events)))
+    listed = events is None or events.__class__ is Cons
+    wanted = tuple(map(as_event, items(events))) if listed else (as_event(events),)
     for event in wanted:
         if isinstance(event, Task):
             event.seen = True
@@ -105,7 +108,7 @@ def signal_event(event: Value, *arguments: Value) -> Value:
     Source: ESL §4.1.
     """
     if not isinstance(event, Event):
-        raise type_error(event, "EVENT", "signal")
+        raise type_error(event, EVENT, SIGNAL)
     scheduler = running.session.scheduler
     waits = event.signal(arguments)
     if scheduler.session.hooks.listeners:
@@ -122,5 +125,5 @@ function("(signal-event event &rest arguments)", ESL)(signal_event)
 def as_event(value: Value) -> Event:
     """VALUE, which is to be an event."""
     if not isinstance(value, Event):
-        raise type_error(value, "EVENT", "wait-for-events")
+        raise type_error(value, EVENT, WAIT_FOR_EVENTS)
     return value

@@ -5,14 +5,17 @@ The papers leave real time to the user's guide (ESL §6); what is here is ours.
 
 from __future__ import annotations
 
+from eslang.base.arguments import take_keys
 from eslang.base.failure import Failure, type_error
 from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.many import many_of
 from eslang.base.running import running
+from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.base.text import String
-from eslang.compile.registry import ESL, function, macro
+from eslang.compile.registry import CL, ESL, function, macro
+from eslang.constructs.esl.clauses import refuse
 from eslang.constructs.esl.conditions import test_form
 from eslang.constructs.esl.tasks import LAMBDA, QUOTE, closure
 from eslang.runtime import failures
@@ -30,7 +33,8 @@ def seconds_of(value: Value, operator: str, *, above_zero: bool = False) -> floa
     """VALUE, which is to be a time in seconds."""
     number = value.__class__ is int or value.__class__ is float or value.__class__.__name__ == "Ratio"
     if not number or value < 0 or value != value or (above_zero and value == 0):
-        raise type_error(value, "POSITIVE-REAL" if above_zero else "NON-NEGATIVE-REAL", operator)
+        name = Symbol.intern(operator.upper(), CL if operator == "sleep" else ESL)
+        raise type_error(value, "POSITIVE-REAL" if above_zero else "NON-NEGATIVE-REAL", name)
     return min(float(value), LONGEST)
 
 
@@ -69,6 +73,10 @@ def with_deadline(form: Cons, environment: Any) -> Value:
     Source: language reference §4.
     """
     seconds, body = form.cdr.car, form.cdr.cdr
+    if seconds.__class__ is not Cons or seconds.cdr is not None:
+        wrong = f"`{shown(seconds)}` is no deadline"
+        hint = "write `(seconds)`"
+        refuse(environment, "malformed-form", wrong, form.cdr, hint=hint, within="with-deadline")
     span = environment.analyser.span if environment is not None else None
     place = String(f"{span.source.name}:{span.line}:{span.column}") if span is not None else None
     return lisp_list(DEADLINE, seconds.car, place, from_items([LAMBDA, None], body))
@@ -127,7 +135,7 @@ def wait_until(form: Cons, environment: Any) -> Value:
 @function("(%wait-until condition test &key timeout)", ESL)
 def wait_until_function(condition: Value, test: Any, *options: Value) -> Value:
     """Wait until TEST is true."""
-    timeout = options[1] if options else None
+    (timeout,) = take_keys(options, ("TIMEOUT",))
     scheduler = running.session.scheduler
     wait = Wait(scheduler.at_work(), CONDITION, condition, (), test)
     if timeout is None:
