@@ -96,7 +96,7 @@ def phrase(wait: Wait) -> str:
     of: Any = wait.of
     match wait.kind:
         case "events":
-            return " or ".join(f"{name_of(event)}" for event in of) or "none of no events"
+            return " or ".join(f"{name_of(event)}" for event in of) or "an event of an empty list"
         case "checkpoint":
             return f"checkpoint {prin1(of[1])} of {of[0].name}"
         case "end" | "tasks" | "leaving":
