@@ -1,8 +1,10 @@
-"""Ctrl-C and the time limit: requests to an interpreter to end what it runs.
+"""Ctrl-C, the time limit, and turns for all: what reaches a plan from the clock and the keys.
 
-A request only sets the interpreter's flag; it ends the evaluation with its
-cleanups. Whoever loses patience and asks again, and a time limit that the
-cleanups outlast, ends the whole command at once.
+A request to end only sets the interpreter's flag; it ends the evaluation with
+its cleanups. Whoever loses patience and asks again, and a time limit that the
+cleanups outlast, ends the whole command at once. A task that calls functions
+without ever looping passes no safepoint: now and then the processor's clock
+makes it pass one at its next call.
 """
 
 from __future__ import annotations
@@ -16,6 +18,8 @@ from eslang.base.hints import Any
 
 INTERRUPTED, TIME_LIMIT = 130, 124
 GRACE = 2.0  # seconds that cleanups have after the time limit
+STRETCH = 0.01  # seconds of processor time after which a task that only calls lets others have their turn
+ENTRY = (lambda: None).__code__.co_code[0]  # the instruction at which every function begins
 
 
 class Interrupts:
@@ -54,6 +58,41 @@ class Interrupts:
         self.asked += 1
         self.code = code
         self.interp.interrupt(reason, code)
+
+
+class Turns:
+    """While entered, no task keeps the others from their turns, or a stop from being obeyed, by calls alone.
+
+    Only at the entry of a function of the plan, which might as well wait
+    there, is the task made to pass a safepoint; anywhere else the next stretch
+    is awaited. On virtual time the order of tasks is not the processor's
+    affair, and only a pending stop counts.
+    """
+
+    def __init__(self, interp: Any) -> None:
+        self.interp = interp
+        self._before: Any = None
+
+    def __enter__(self) -> Turns:
+        if hasattr(signal, "setitimer"):
+            self._before = signal.signal(signal.SIGVTALRM, self._on_stretch)
+            signal.setitimer(signal.ITIMER_VIRTUAL, STRETCH, STRETCH)
+            self.interp.ticks.watch_calls = False  # no profiler hook is needed
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._before is not None:
+            signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+            signal.signal(signal.SIGVTALRM, self._before)
+            self.interp.ticks.watch_calls = True
+
+    def _on_stretch(self, number: int, frame: FrameType | None) -> None:
+        interp = self.interp
+        if frame is None or (interp.clock.is_virtual and interp.ticks.pending is None):
+            return
+        interp.scheduler.turns = 0  # the driver is to look at clock and posts soon
+        if frame.f_globals.get("%ticks") is interp.ticks and frame.f_code.co_code[frame.f_lasti] == ENTRY:
+            interp.scheduler.safepoint()
 
 
 def leave_at_once(reason: str, code: int) -> None:

@@ -12,7 +12,8 @@ from eslang.base.control import Stop
 from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
 from eslang.base.hints import Any, Callable
-from eslang.tools.interrupts import Interrupts
+from eslang.tools.endings import to_the_end
+from eslang.tools.interrupts import Interrupts, Turns
 from eslang.tools.narrator import narrate
 from eslang.tools.opening import Opened, OutputClosed, limit_of, readable
 from eslang.tools.options import Chosen, Usage
@@ -29,8 +30,8 @@ def run(chosen: Chosen) -> int:
         readable(path)
     limit = limit_of(chosen)
     with Opened(chosen, None if chosen.has("quiet") else narrate) as interp:
-        with Interrupts(interp, limit) as interrupts:
-            code = outcome(interp, lambda: plan(interp, chosen))
+        with Interrupts(interp, limit) as interrupts, Turns(interp):
+            code = outcome(interp, lambda: to_the_end(interp, lambda: plan(interp, chosen)))
         return code if interrupts.code is None else interrupts.code
 
 
