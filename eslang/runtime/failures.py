@@ -301,8 +301,8 @@ def run_with_cleanup(body: Callable[[], Value], cleanup: Callable[[], Value]) ->
     outer = dynamic.forms
     try:
         return guarded(body)
-    except Unwind as jump:
-        if jump.failed:
+    except BaseException as jump:
+        if not isinstance(jump, Unwind) or jump.failed:
             dynamic.forms = outer
             try:
                 clean(cleanup)
@@ -312,11 +312,18 @@ def run_with_cleanup(body: Callable[[], Value], cleanup: Callable[[], Value]) ->
         raise
 
 
-def is_stronger(jump: Unwind, second: Unwind) -> bool:
+def is_stronger(jump: BaseException, second: Unwind) -> bool:
     """True if JUMP goes on although a cleanup that it passed ended with a SECOND one."""
+    if not isinstance(jump, Unwind):
+        return True  # what Python raises to leave everything
     if isinstance(jump, EndTask | Stop):
         return not isinstance(second, EndTask | Stop) or second.__class__ is jump.__class__
     return jump.__class__ is Failed and second.__class__ is Failed
+
+
+def is_last(jump: BaseException) -> bool:
+    """True if nothing that JUMP passes can stop it: it ends the task, or the run, or is Python's own."""
+    return isinstance(jump, EndTask | Stop) or not isinstance(jump, Unwind | Exception)
 
 
 def clean(cleanup: Callable[[], Value]) -> Value:
@@ -336,7 +343,7 @@ def clean(cleanup: Callable[[], Value]) -> Value:
         left = False
         return value
     except Unwind as second:
-        if not (isinstance(ending, EndTask | Stop) and is_stronger(ending, second)):
+        if ending is None or not is_last(ending) or not is_stronger(ending, second):
             raise
         return None
     finally:

@@ -7,7 +7,7 @@ top level belongs to the run, and is there when other roots come and go.
 
 from __future__ import annotations
 
-from _thread import get_ident
+from _thread import allocate_lock, get_ident
 
 from eslang.base.control import EndTask, Stop
 from eslang.base.failure import Failure, control_error
@@ -32,6 +32,7 @@ class Runs:
         self.scheduler.is_open = is_open
         self.root: Task | None = None
         self.stopped: Stop | None = None  # what the run is to end with, once all has been aborted
+        self.gate = allocate_lock()  # held while anything of this is on a stack, from outside in
         self._ident = get_ident()
 
     def run(self, body: Callable[[], Value]) -> Value:
@@ -40,17 +41,29 @@ class Runs:
 
     def enter(self, body: Callable[[], Any], name: str = "main") -> Any:
         """The same; BODY itself sees to what is to be run apart."""
-        self.check_entrance()
-        if self.scheduler.current is not None:
+        if self.is_inside():
             return body()
+        self.begin()
+        try:
+            return self._as_root(body, name)
+        finally:
+            self.gate.release()
+
+    def _as_root(self, body: Callable[[], Any], name: str) -> Any:
+        """What BODY gives, run as a root. What was posted before it begins is done before."""
+        scheduler = self.scheduler
+        came = not scheduler.posted.empty()
+        if came:
+            scheduler.take_posts()
         root = self.root = self.lives.create(name, body)
         self.lives.count += 1
         root.is_root = root.seen = True
-        scheduler = self.scheduler
         scheduler.enter(root)
         self.lives.tell("task-started", about=root, parent=None, role="main", daemon=False)
         status: Keyword = ABORTED
         try:
+            if came:
+                scheduler.yield_turn(root)
             result = body()
             status = SUCCEEDED
             return result
@@ -58,11 +71,11 @@ class Runs:
             root.failure, status = failure, FAILED
             raise
         except EndTask:
-            raise self._aborted() from None
+            raise self.aborted() from None
         finally:
             self._leave(root, status)
 
-    def _aborted(self) -> Failure:
+    def aborted(self) -> Failure:
         """What a call that one of its tasks has aborted fails with."""
         failure = Failure(ABORTED)
         self.session.hooks.tell("aborted", None, failure=failure)
@@ -74,19 +87,31 @@ class Runs:
         self.lives.end(root, status)
         self.scheduler.calm_down()
 
-    def check_entrance(self) -> None:
-        """Refuse an entrance where something is at work that cannot be entered."""
-        if get_ident() != self._ident:
-            if self.lives.count:
-                raise control_error("this interpreter is at work in another thread; signal it from there")
-            self._ident = get_ident()
-            self.scheduler.driver = None
-            self.lives.forget_spare()
+    def is_inside(self) -> bool:
+        """True if the stack at hand is that of a task of this interpreter, whose turn it is."""
         current = self.scheduler.current
-        if current is None and self.root is not None:
-            raise control_error("this interpreter waits in a call; it can be entered when that is over")
-        if current is not None and not self.scheduler.is_on_stack(current):
-            raise control_error("this interpreter waits for another one, which cannot call it")
+        return current is not None and get_ident() == self._ident and self.scheduler.is_on_stack(current)
+
+    def begin(self) -> None:
+        """Let the stack at hand be where this is at work; the gate is to be released. Refused if another is."""
+        if not self.gate.acquire(False):
+            raise control_error(self._obstacle())
+        if get_ident() == self._ident:
+            return
+        if self.lives.count:
+            self.gate.release()
+            raise control_error("the tasks of this interpreter live in another thread; signal them from there")
+        self._ident = get_ident()
+        self.scheduler.driver = None
+        self.lives.forget_spare()
+
+    def _obstacle(self) -> str:
+        """Why this cannot be entered, now that it is at work."""
+        if get_ident() != self._ident:
+            return "this interpreter is at work in another thread; signal it from there"
+        if self.scheduler.current is None:
+            return "this interpreter waits in a call; only `call_async`, in a coroutine, can call it meanwhile"
+        return "this interpreter waits for another one, which cannot call it"
 
     # --- ends --------------------------------------------------------------------
 
@@ -108,10 +133,12 @@ class Runs:
         """Let tasks run, outside of any, until DONE. Raises Stop if they were stopped, and have all ended."""
         scheduler = self.scheduler
         if not done():
+            self.begin()
             try:
                 scheduler.drive(done=lambda: done() if self.stopped is None else not self.lives.tops)
             finally:
                 scheduler.calm_down()
+                self.gate.release()
         if self.stopped is not None:
             stop, self.stopped = self.stopped, None
             raise stop
