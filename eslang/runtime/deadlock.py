@@ -13,7 +13,7 @@ from types import FrameType
 from eslang.base.failure import Failure
 from eslang.base.hints import Any, Iterable, NamedTuple
 from eslang.base.lists import lisp_list
-from eslang.base.printer import prin1
+from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Value
 from eslang.base.text import String
 from eslang.runtime.events import Event, Wait
@@ -25,12 +25,14 @@ DEADLOCK = Keyword("DEADLOCK")
 
 
 class Waiting(NamedTuple):
-    """One task of a deadlock: what it waits for, where, and why that does not come."""
+    """One task of a deadlock: what it waits for, where, why that does not come, and what would help."""
 
     task: str
     what: str
     place: Place | None
     why: str
+    kind: str  # of the wait
+    advice: str
 
 
 class Deadlock(NamedTuple):
@@ -82,7 +84,8 @@ def waiting(task: Task, alive: list[Task]) -> Waiting:
     """What is known of the wait of TASK."""
     wait = task.wait
     assert wait is not None
-    return Waiting(task.name, phrase(wait), place_of_task(task), why(wait, alive))
+    reason, advice = why(wait, alive)
+    return Waiting(task.name, phrase(wait), place_of_task(task), reason, wait.kind, advice)
 
 
 def place_of_task(task: Task) -> Place | None:
@@ -98,13 +101,13 @@ def phrase(wait: Wait) -> str:
         case "events":
             return " or ".join(f"{name_of(event)}" for event in of) or "an event of an empty list"
         case "checkpoint":
-            return f"checkpoint {prin1(of[1])} of {of[0].name}"
+            return f"checkpoint {shown(of[1])} of {of[0].name}"
         case "end" | "tasks" | "leaving":
             return "the end of " + ", ".join([task.name for task in awaited(wait)])
         case "sleep":
-            return f"{prin1(of)} seconds to pass"
+            return f"{shown(of)} seconds to pass"
         case "condition":
-            return f"the condition {prin1(of)}"
+            return f"the condition {shown(of)}"
     return f"{of}" if of is not None else wait.kind
 
 
@@ -115,20 +118,36 @@ def name_of(event: Event) -> str:
     return f"event {event.name}".lower() if event.name is not None else "an event without a name"
 
 
-def why(wait: Wait, alive: list[Task]) -> str:
-    """Who could have ended WAIT, and did not."""
-    if wait.kind == "checkpoint":
-        task, key = wait.of
-        if task.status is not None:
-            return f"{task.name} has ended without it"
-        if promises(task, "checkpoint", key):
-            return f"{task.name} has not come to its (checkpoint {prin1(key)})"
-        return f"{task.name} never signals it: no (checkpoint {prin1(key)}) stands in its body"
-    if wait.kind == "events":
-        names = [event.name for event in wait.of if event.name is not None]
-        could = [task.name for task in alive if any(promises(task, "signal", name) for name in names)]
-        return f"{', '.join(could)} could signal it" if could else "no task that is left signals it by name"
-    return ""
+def why(wait: Wait, alive: list[Task]) -> tuple[str, str]:
+    """Who could have ended WAIT, and did not; and what would help."""
+    match wait.kind:
+        case "checkpoint":
+            return why_no_checkpoint(*wait.of)
+        case "events":
+            return why_no_signal(wait.of, alive)
+        case "condition":
+            return "", "let another task make the condition true, or give the wait a `:timeout`"
+    return "", ""
+
+
+def why_no_checkpoint(task: Task, key: Value) -> tuple[str, str]:
+    """Why TASK does not pass its checkpoint KEY; and what would help."""
+    form = f"(checkpoint {shown(key)})"
+    if task.status is not None:
+        return f"{task.name} has ended without it", f"let {task.name} pass `{form}` before it ends"
+    if promises(task, "checkpoint", key):
+        return f"{task.name} has not come to its {form}", f"let {task.name} pass `{form}` first"
+    return f"{task.name} never signals it: no {form} stands in its body", f"let {task.name} pass `{form}`"
+
+
+def why_no_signal(events: Iterable[Event], alive: list[Task]) -> tuple[str, str]:
+    """Why none of EVENTS is signalled; and what would help."""
+    names = [event.name for event in events if event.name is not None]
+    could = [task.name for task in alive if any(promises(task, "signal", name) for name in names)]
+    form = f"(signal {shown(names[0]) if names else 'event'})"
+    if could:
+        return f"{', '.join(could)} could signal it", f"let {could[0]} come to its `{form}`"
+    return "no task that is left signals it by name", f"let a task that does not wait `{form}`"
 
 
 def promises(task: Task, kind: str, of: Value) -> bool:

@@ -18,11 +18,11 @@ from eslang.base.render import render
 from eslang.base.spans import Source, Span
 from eslang.base.suggest import nearest
 from eslang.base.symbols import Symbol
-from eslang.runtime.story import Asked, Frame, Place, Story
+from eslang.runtime.story import Asked, Place, Story
 from eslang.tools.names import known_names
 from eslang.tools.narrator import retries
+from eslang.tools.stacks import passed_on, stack_lines
 
-SHOWN_FRAMES = 10  # of a deeper stack, as many at both ends together
 FLAW = "This is a bug in eslang, not in your plan. Please send us what follows, and what brought it about."
 
 
@@ -34,8 +34,7 @@ def failure_text(failure: Failure) -> str:
 
 def place_of(failure: Failure) -> str:
     """Where FAILURE was raised, as file:line:column; empty if that is not known."""
-    story: Story | None = failure.story
-    return str(story.place) if story is not None and story.place is not None else ""
+    return str(place_raised(failure) or "")
 
 
 def wants_colour(stream: TextIO) -> bool:
@@ -45,14 +44,25 @@ def wants_colour(stream: TextIO) -> bool:
 
 def failure_report(failure: Failure, interp: Any = None, colour: bool = False) -> str:
     """FAILURE in a few lines: where it was raised, with what, and who called whom."""
-    story: Story | None = failure.story
+    place = place_raised(failure)
+    first = passed_on(failure)[0]
+    if first.report is not None:
+        from eslang.tools.standstill import standstill
+
+        return render(standstill(first.report, place), colour)
     message = failure_text(failure)
-    if story is None or story.place is None:
+    if place is None:
         return f"failure: {message}"
-    label = Label(span_of(story.place), sentence_of(failure) or "raised here")
-    notes = tuple(stack_lines(story.stack))
+    label = Label(span_of(place), sentence_of(failure) or "raised here")
+    notes = tuple(stack_lines(failure, interp))
     hint = near_name(failure, interp)
     return render(Diagnostic("failure", message, (label,), None, hint, notes, "failure"), colour)
+
+
+def place_raised(failure: Failure) -> Place | None:
+    """Where FAILURE was raised first, in whichever task, if that is known."""
+    stories: list[Story] = [each.story for each in passed_on(failure) if each.story is not None]
+    return next((story.place for story in stories if story.place is not None), None)
 
 
 def sentence_of(failure: Failure) -> str:
@@ -113,36 +123,33 @@ def span_of(place: Place) -> Span:
     return Span(source, place.line, place.column, place.end_line, end)
 
 
-def stack_lines(stack: Sequence[Frame]) -> list[str]:
-    """The frames of a Lisp stack, innermost first; of a deep one both ends."""
-    frames = list(stack)
-    left_out = len(frames) - SHOWN_FRAMES
-    width = max([len(frame.name) for frame in frames], default=0)
-    lines = [f"in {frame.name.lower():<{width}}  {frame.place}" for frame in frames]
-    if left_out > 1:
-        half = SHOWN_FRAMES // 2
-        lines[half:-half] = [f"... {left_out} more ..."]
-    return lines
-
-
 def why(failure: Failure | None, interp: Any = None) -> str:
     """All that is known of FAILURE: where, which procedures were asked, who called whom."""
     if failure is None:
         return "Nothing has failed yet.\n"
-    story: Story | None = failure.story
     place = place_of(failure)
+    stages = passed_on(failure)
+    tasks = [each.origin.name for each in stages[1:]]
     lines = [f"{failure_text(failure)} was raised" + (f" at {place}" if place else "")]
+    lines[0] += f", in task {tasks[0]}" if tasks else ""
+    if stages[0].report is not None:
+        lines = [failure_report(failure, interp)]
     lines += [text for text in (sentence_of(failure), near_name(failure, interp)) if text]
-    if story is None:
-        return "\n".join(lines) + "\n"
-    if story.asked:
-        lines.append("Recovery procedures that were active, innermost first:")
-        lines += asked_lines(story.asked)
-    else:
-        lines.append("No recovery procedure was active.")
-    if story.stack:
-        lines += ["The stack, innermost first:", *(f"  {line}" for line in stack_lines(story.stack))]
+    for each, task in zip(stages, [*tasks, ""], strict=True):
+        if each.story is not None:
+            lines += asked_of(each.story, task if len(stages) > 1 else "", bool(tasks))
+    stack = stack_lines(failure, interp)
+    if stack:
+        lines += ["The stack, innermost first:", *(f"  {line}" for line in stack)]
     return "\n".join(lines) + "\n"
+
+
+def asked_of(story: Story, task: str, several: bool) -> list[str]:
+    """Which recovery procedures were asked, in TASK where SEVERAL have seen the failure."""
+    where = f" in task {task}" if task else " where it was passed on to" if several else ""
+    if not story.asked:
+        return [f"No recovery procedure was active{where}."]
+    return [f"Recovery procedures that were active{where}, innermost first:", *asked_lines(story.asked)]
 
 
 def asked_lines(asked: Sequence[Asked]) -> list[str]:
