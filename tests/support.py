@@ -23,14 +23,22 @@ ROOT = Path(__file__).resolve().parents[1]
 CONSOLE = re.compile(r"^```console\n(.*?)^```", re.M | re.S)
 
 
-def run(text: str, *, name: str = "<test>", seed: int = 0, listeners: Sequence[Any] = ()) -> Any:
+def run(
+    text: str,
+    *,
+    name: str = "<test>",
+    seed: int = 0,
+    shuffle: bool = False,
+    listeners: Sequence[Any] = (),
+) -> Any:
     """Run TEXT form by form in a new interpreter on virtual time; what came of it (expectations.Came)."""
     from eslang.base.spans import Source
     from eslang.interpreter import Interpreter
     from eslang.tools.expectations import Came
 
     written, came = StringIO(), Came()
-    interp = Interpreter(seed=seed, clock="virtual", output=written, listeners=[came.hear, *listeners])
+    heard = [came.hear, *listeners]
+    interp = Interpreter(seed=seed, clock="virtual", output=written, shuffle=shuffle, listeners=heard)
 
     def evaluate_all() -> None:
         for reading in interp.readings(Source(name, text)):

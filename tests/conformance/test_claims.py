@@ -1,10 +1,58 @@
-"""Every claim has a file that shows it, every file shows a claim, and the page says so."""
+"""Every claim has a file that shows it, every file shows a claim, and the page says so.
+
+Where the papers leave it open which task runs first, what they do say must
+hold whichever it is: the files about tasks run with shuffled turns as well.
+"""
 
 from __future__ import annotations
 
-from claims import ROOT, conformance_page, load_claims, shown_claims
+from pathlib import Path
+
+import pytest
+
+from claims import CONFORMANCE, FIRST_LINES, ROOT, conformance_page, load_claims, shown_claims
+from eslang.tools.expectations import Expected, troubles
+from support import run
 
 PAGE = ROOT / "docs" / "reference" / "conformance.md"
+SEEDS = range(20)
+FEW = 2  # of the seeds, where the suite is to be fast
+TASKS = ("ESL §4", "ESL §6", "ARM §2, Task Management", "ARM §3")
+
+
+def files_about_tasks() -> list[Path]:
+    """The files that show claims of the sections about tasks."""
+    ids = {claim.id for claim in load_claims() if claim.section.startswith(TASKS)}
+    files = sorted(CONFORMANCE.rglob("*.esl"))
+    return [path for path in files if ids & {name for name, _ in first_lines(path)}]
+
+
+def first_lines(path: Path) -> list[tuple[str, str]]:
+    """The claims that PATH names, each with its sentence."""
+    return FIRST_LINES.findall(path.read_text(encoding="utf-8"))
+
+
+def check_order(path: Path, seeds: range) -> None:
+    """Fail unless PATH does the same with turns shuffled by each of SEEDS."""
+    text = path.read_text(encoding="utf-8")
+    expected = Expected(text)
+    for seed in seeds:
+        found = troubles(expected, run(text, name=path.name, seed=seed, shuffle=True))
+        assert not found, "\n".join([f"{path.name}, shuffled with seed {seed}", *found])
+
+
+every_file = pytest.mark.parametrize("path", files_about_tasks(), ids=lambda path: path.stem)
+
+
+@every_file
+def test_a_claim_about_tasks_holds_in_a_few_orders(path: Path) -> None:
+    check_order(path, SEEDS[:FEW])
+
+
+@pytest.mark.slow
+@every_file
+def test_a_claim_about_tasks_holds_in_any_order(path: Path) -> None:
+    check_order(path, SEEDS[FEW:])
 
 
 def test_every_file_shows_a_claim() -> None:
