@@ -31,7 +31,7 @@ FAILURE = Part("failure", "Failure", "the failure; its `origin` is the task that
 WAIT_ON = Part(
     "on",
     "str",
-    "the kind of the wait: `events`, `checkpoint`, `end`, `tasks`, `leaving`, `condition`, `sleep`, `period`, …",
+    "what it is for: `events`, `checkpoint`, `end`, `tasks`, `leaving`, `condition`, `sleep`, `period`, …",
 )
 WAIT_OF = Part(
     "of",

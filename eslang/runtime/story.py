@@ -15,6 +15,7 @@ from eslang.base.symbols import Value
 
 DEEPEST = 50  # frames that a story tells
 FAR = 500  # frames that a failure has passed
+KEPT = 10_000  # places that were looked up
 
 
 class Place(NamedTuple):
@@ -67,13 +68,27 @@ class Story(NamedTuple):
         return self.stack[0].place if self.stack else None
 
 
+_PLACES: dict[tuple[int, int], tuple[CodeType, Place | None]] = {}  # with the code, which so keeps its id
+
+
 def is_lisp(frame: FrameType) -> bool:
     """True if FRAME runs code compiled from Lisp text that a person wrote."""
     return "%many" in frame.f_globals and not frame.f_code.co_filename.startswith("<stdlib>")
 
 
 def place_of(code: CodeType, instruction: int) -> Place | None:
-    """The place of one instruction of CODE."""
+    """The place of one instruction of CODE; those found before are kept."""
+    key = id(code), instruction
+    known = _PLACES.get(key)
+    if known is None:
+        if len(_PLACES) >= KEPT:
+            _PLACES.clear()
+        known = _PLACES[key] = code, look_up_place(code, instruction)
+    return known[1]
+
+
+def look_up_place(code: CodeType, instruction: int) -> Place | None:
+    """The place of one instruction of CODE, from its table of positions."""
     found = next(islice(code.co_positions(), instruction // 2, None), None)
     if found is None or found[0] is None:
         return None

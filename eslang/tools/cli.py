@@ -94,6 +94,10 @@ def perform(chosen: Chosen) -> int:
         from eslang.tools.checking import check
 
         return check(chosen)
+    if name == "trace":
+        from eslang.tools.traces import trace
+
+        return trace(chosen)
     if name == "doc":
         from eslang.tools.docs import doc
 

@@ -74,13 +74,14 @@ class Opened:
         if clock not in ("real", "virtual"):
             raise Usage(f"`--clock` is `real` or `virtual`, not `{clock}`")
         seed = seed_of(chosen)
-        listeners: list[Callable[[Any], None]] = []
-        self.stream = trace_stream(chosen)
-        if self.stream is not None:
-            from eslang.tools.tracing import Tracer
-
-            listeners.append(Tracer(self.stream))
-        self.interp = Interpreter(seed=seed, clock=clock, output=Outlet(sys.stdout), listeners=listeners)
+        self.tracer = tracer_of(chosen, clock, seed)
+        self.interp = Interpreter(
+            seed=seed,
+            clock=clock,
+            output=Outlet(sys.stderr if chosen.value("trace") == "-" else sys.stdout),
+            shuffle=chosen.has("shuffle"),
+            listeners=[self.tracer] if self.tracer is not None else [],
+        )
         if listener is not None:
             self.interp.hooks.speakers.append(listener)
 
@@ -93,8 +94,8 @@ class Opened:
 
     def __exit__(self, *error: object) -> None:
         self.interp.close()
-        if self.stream is not None:
-            self.stream.close()
+        if self.tracer is not None:
+            self.tracer.close(self.interp.clock.now())
 
 
 def seed_of(chosen: Chosen) -> int:
@@ -127,13 +128,18 @@ def limit_of(chosen: Chosen) -> float | None:
     return seconds
 
 
-def trace_stream(chosen: Chosen) -> Any:
-    """The file that the events are to be written to, opened."""
+def tracer_of(chosen: Chosen, clock: str, seed: int) -> Any:
+    """The listener that writes the events to the file that CHOSEN names, opened."""
     path = chosen.value("trace")
     if path is None:
         return None
+    if path == "-" and chosen.command.name != "run":
+        raise Usage("standard output is the prompt's: let `--trace` name a file")
+    from eslang.tools.tracing import Tracer
+
     try:
-        return open(path, "w", encoding="utf-8")
+        stream = sys.stdout if path == "-" else open(path, "w", encoding="utf-8", buffering=1)  # noqa: SIM115
+        return Tracer(stream, {"clock": clock, "seed": seed, "plans": chosen.words})
     except OSError as trouble:
         raise Usage(f"cannot write `{path}`: {reason(trouble)}") from None
 

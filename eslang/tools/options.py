@@ -68,7 +68,7 @@ HELP = Option("-h --help", None, "print this text")
 SEED = Option("--seed", "N", "seed of all chance, a whole number (default 0); `random` draws and prints one")
 CLOCK = Option("--clock", "KIND", "`real` (default), or `virtual`: time jumps while all wait")
 QUIET = Option("-q --quiet", None, "print no trace lines")
-TRACE = Option("--trace", "FILE", "write the events of the run to FILE, one JSON object a line")
+TRACE = Option("--trace", "FILE", "write the events of the run to FILE (see `esl trace`)")
 SHUFFLE = Option("--shuffle", None, "let ready tasks take turns in an order drawn from the seed")
 LIMIT = Option("--time-limit", "S", "end the run after S seconds of wall time (exit 124)")
 SCENARIO = Option("--scenario", "FILE", "what the world does, and when (not available yet)")
@@ -76,6 +76,16 @@ FACTS = Option("--facts", "FILE", "facts to begin with (not available yet)")
 EVAL = Option("-e", "FORM", "evaluate FORM and print its values; may be repeated")
 DOUBLES = Option("--doubles", "FILE", "let the doubles that FILE defines stand in for devices")
 COVERAGE = Option("--coverage", None, "report what of the plans did not run")
+TELLING = (
+    Option("--task", "NAME", "tell only what concerns this task; may be repeated"),
+    Option("--kind", "KIND", "tell only events of this kind; may be repeated"),
+    Option("--from", "S", "tell only what happened S seconds after the start, or later"),
+    Option("--to", "S", "tell only what happened until then"),
+    Option("--all", None, "leave nothing out of a long run"),
+    Option("--html", None, "write a page that shows the tasks as lanes over time"),
+    Option("--perfetto", None, "write the format of Chrome's and Perfetto's trace viewers"),
+    Option("-o", "FILE", "write the page, or the format, to FILE (`-` is standard output)"),
+)
 
 _RUN = (SEED, SHUFFLE, CLOCK, QUIET, TRACE, LIMIT, SCENARIO, FACTS)
 
@@ -106,6 +116,14 @@ COMMANDS = {
             (DOUBLES, COVERAGE, SEED, HELP),
             "PATH is a file, or a folder to search: .esl files with DEFTEST or `; expect` lines,\n"
             ".transcript files, and Markdown files with `? ` prompts or ```esl blocks.",
+        ),
+        Command(
+            "trace",
+            "[options] FILE",
+            "tell a run that was traced",
+            (*TELLING, HELP),
+            "FILE is what `esl run --trace FILE` has written; `-` is standard input. Without --html or\n"
+            "--perfetto, prints the tasks as a tree, and what happened as a timeline.",
         ),
         Command("check", "FILE...", "say what can be known of plans without running them", (HELP,)),
         Command("doc", "NAME...", "print the signature and documentation of names", (HELP,)),

@@ -135,10 +135,10 @@ def test_events_are_traced_as_json_lines(tmp_path: Path) -> None:
     trace = tmp_path / "trace.jsonl"
     call(["run", "--trace", str(trace), "-e", "(fail :stuck 3)"])
     events = [json.loads(line) for line in trace.read_text(encoding="utf-8").splitlines()]
-    kinds = ["task-started", "failure", "aborted", "task-ended"]
+    kinds = ["trace-begun", "task-started", "failure", "aborted", "task-ended", "trace-ended"]
     assert [event["kind"] for event in events] == kinds
-    assert events[1]["form"] == "-e:1:1"
-    assert events[1]["failure"] == {"cause": ":STUCK", "arguments": [3]}
+    assert events[2]["form"] == "-e:1:1"
+    assert events[2]["failure"] == {"cause": ":STUCK", "arguments": [3]}
 
 
 @pytest.mark.slow

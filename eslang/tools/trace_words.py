@@ -1,0 +1,183 @@
+"""The events of a trace in words, for people."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+from eslang.tools.narrator import retries
+from eslang.tools.trace_reading import Record
+
+SUBJECTS = {
+    "task-started": "about",
+    "task-ended": "about",
+    "abort": "of",
+    "interrupt-sent": "to",
+    "deadlock": "to",
+}
+ROLES = {"member": "", "main": "", "guardian": ", a guardian", "spawned": ", spawned"}
+WHY_ABORTED = {
+    "net": "the net is decided",
+    "guardian": "what it guarded is over",
+    "owner": "its owner ends",
+    "run": "the run ends",
+}
+MANY = 4  # names that are listed
+
+
+def subject(record: Record) -> str | None:
+    """The task that RECORD is about."""
+    name: str | None = record.told.get(SUBJECTS.get(record.kind, ""), record.task)
+    return name
+
+
+def concerns(record: Record, name: str) -> bool:
+    """True if RECORD has to do with the task NAME."""
+    told = record.told
+    parts = (record.task, told.get("about"), told.get("of"), told.get("to"), told.get("by"))
+    return name in parts or name in told.get("wakes", ()) or name in list_of(told.get("of"))
+
+
+def list_of(value: Any) -> list[Any]:
+    """VALUE, if it is a list."""
+    return value if isinstance(value, list) else []
+
+
+def sentence(record: Record) -> str:
+    """What RECORD says of its subject."""
+    make = SENTENCES.get(record.kind)
+    if make is None:
+        rest = ", ".join(f"{name} {value_text(value)}" for name, value in record.told.items())
+        return f"{record.kind}: {rest}" if rest else record.kind
+    return make(record.told)
+
+
+def listed(names: list[Any]) -> str:
+    """NAMES in a row; of many only the first."""
+    shown = [str(name) for name in names[:MANY]]
+    left = len(names) - MANY
+    return ", ".join(shown) + (f" and {left} more" if left > 0 else "")
+
+
+def failure_words(failure: dict[str, Any]) -> str:
+    """The cause of FAILURE, and its arguments."""
+    return " ".join([failure["cause"], *map(value_text, failure["arguments"])])
+
+
+def value_text(value: Any) -> str:
+    """VALUE, one of a trace, as text."""
+    if value is None:
+        return "NIL"
+    return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
+
+
+def seconds(value: Any) -> str:
+    """A number of seconds."""
+    return f"{value:g} s" if isinstance(value, (int, float)) else str(value)
+
+
+def waited_for(told: dict[str, Any]) -> str:
+    """What a wait is for."""
+    on, of = told["on"], told["of"]
+    if on == "events" and isinstance(of, list):
+        return " or ".join(f"event {name}" for name in of[:MANY]) + (" …" if len(of) > MANY else "")
+    if on == "checkpoint" and isinstance(of, list) and len(of) == 2:
+        return f"checkpoint {value_text(of[1])} of {of[0]}"
+    if on in ("end", "tasks", "leaving"):
+        names = of if isinstance(of, list) else [of]
+        return f"the end{'s' if len(names) > 1 else ''} of {listed(names)}"
+    if on == "condition":
+        return f"the condition {value_text(of)}"
+    if on == "period":
+        return f"the next period, {seconds(of)}"
+    if on == "sleep":
+        return f"{seconds(of)} to pass"
+    return on if of is None else f"{on} {value_text(of)}"
+
+
+def _wait(told: dict[str, Any]) -> str:
+    return f"sleeps {seconds(told['of'])}" if told["on"] == "sleep" else f"waits for {waited_for(told)}"
+
+
+def _resume(told: dict[str, Any]) -> str:
+    words = {"came": "goes on", "timeout": "goes on: the time is over", "left": "leaves its wait"}
+    return words.get(told["how"], f"goes on: {told['how']}")
+
+
+def _started(told: dict[str, Any]) -> str:
+    return "begins" + ROLES.get(told["role"], f", {told['role']}") + (", daemon" if told["daemon"] else "")
+
+
+def _ended(told: dict[str, Any]) -> str:
+    if told["status"] == ":FAILED" and told["failure"] is not None:
+        return f"has failed: {failure_words(told['failure'])}"
+    return {":SUCCEEDED": "has succeeded", ":ABORTED": "has ended, aborted"}.get(told["status"], "has ended")
+
+
+def _woken(told: dict[str, Any]) -> str:
+    return f", wakes {listed(told['wakes'])}" if told["wakes"] else ""
+
+
+def _signal(told: dict[str, Any]) -> str:
+    given = f" {told['arguments']}" if told["arguments"] is not None else ""
+    return f"signals {told['event']}{given}" + (_woken(told) or ", nobody waits")
+
+
+def _abort(told: dict[str, Any]) -> str:
+    by = f" by {told['by']}" if told["by"] is not None else ""
+    why = WHY_ABORTED.get(told["why"])
+    return f"is aborted{by}" + (f": {why}" if why else "")
+
+
+def _cause_of_interrupt(told: dict[str, Any]) -> str:
+    return str(told["why"]) + (f" {told['by']}" if told["by"] is not None else "")
+
+
+def _recovery(told: dict[str, Any]) -> str:
+    return f"recovers from {failure_words(told['failure'])} ({retries(told['left']).lower()})"
+
+
+def _recovery_end(told: dict[str, Any]) -> str:
+    words = {
+        "retry": "tries again",
+        "abort": "gives up the form, with a value",
+        "continued": "goes on behind the FAIL",
+        "declined": "did not recover",
+    }
+    return words.get(told["how"], "leaves the recovery by a jump")
+
+
+def _goal(told: dict[str, Any]) -> str:
+    states = {"no-action": "is true already", "attempting": "is attempted", "achieved": "is achieved"}
+    return f"goal {value_text(told['condition'])} {states.get(told['state'], told['state'])}"
+
+
+def _deadlock(told: dict[str, Any]) -> str:
+    return f"deadlock of {listed([each.get('task') for each in told['waiting']])}: nothing can wake them"
+
+
+SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
+    "task-started": _started,
+    "task-ended": _ended,
+    "abort": _abort,
+    "wait": _wait,
+    "resume": _resume,
+    "signal": _signal,
+    "checkpoint": lambda told: f"passes checkpoint {value_text(told['id'])}" + _woken(told),
+    "period-missed": lambda told: f"has missed {told['missed']} periods of {seconds(told['seconds'])}",
+    "interrupt-sent": lambda told: f"is to be interrupted: {_cause_of_interrupt(told)}",
+    "interrupt": lambda told: f"is interrupted: {_cause_of_interrupt(told)}",
+    "interrupt-ended": lambda told: "leaves where it stood" if told["left"] else "goes on where it stood",
+    "recovery": _recovery,
+    "recovery-ended": _recovery_end,
+    "failure-taken": lambda told: f"takes the failure {failure_words(told['failure'])}",
+    "failure": lambda told: f"fails: {failure_words(told['failure'])}, no recovery",
+    "failure-passed": lambda told: f"fails as {told['of']} did: {failure_words(told['failure'])}",
+    "aborted": lambda told: "the run of this form is aborted",
+    "cleanup-started": lambda told: "cleans up",
+    "cleanup-ended": lambda told: "leaves its cleanup" if told["left"] else "has cleaned up",
+    "deadlock": _deadlock,
+    "goal": _goal,
+    "run-stopped": lambda told: f"the run is stopped: {told['reason']} (exit {told['code']})",
+}
