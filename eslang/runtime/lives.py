@@ -15,7 +15,7 @@ from eslang.base.symbols import Keyword, Value
 from eslang.runtime import failures
 from eslang.runtime.events import Wait
 from eslang.runtime.story import place_here
-from eslang.runtime.tasks import ABORTED, FAILED, SUCCEEDED, Interrupt, Task
+from eslang.runtime.tasks import ABORTED, ANYWHERE, FAILED, SUCCEEDED, Interrupt, Task
 
 if TYPE_CHECKING:
     from greenlet import greenlet as Stack
@@ -64,7 +64,7 @@ class Lives:
         task.source = self.scheduler.ticks.make()
         task.dynamic.logical = self.session.dynamic.logical
         if self.session.bindings.hidden is not None:
-            task.kept = self.session.bindings.copy()
+            task.kept = self.session.bindings.copy(), 0
         return task
 
     def start(self, task: Task, role: str) -> None:
@@ -89,6 +89,7 @@ class Lives:
         if task.stack is None:
             self._next = task
             task.stack = self._spare.pop() if self._spare else self._stack()
+            task.switch = task.stack.switch
         task.stack.switch()
         if self.crash is not None:
             crash, self.crash = self.crash, None
@@ -121,7 +122,12 @@ class Lives:
 
     def drop_spare(self) -> None:
         """Let the stacks go that are kept for tasks to come."""
+        if not self._spare:
+            return
+        from greenlet import getcurrent
+
         for stack in self._spare:
+            stack.parent = getcurrent()
             stack.throw()
         self._spare.clear()
 
@@ -144,8 +150,19 @@ class Lives:
         except Unwind:
             task.failure, status = self._lost(), FAILED
         except BaseException as crash:
-            self.crash = crash
+            self._pass_on_crash(task, crash)
         self.end(task, status)
+
+    def _pass_on_crash(self, task: Task, crash: BaseException) -> None:
+        """What Python raised to leave everything goes on in the owner of TASK; else in the driver."""
+
+        def leave() -> None:
+            raise crash
+
+        if task.parent is None:
+            self.crash = crash
+        else:
+            self.scheduler.interrupt(task.parent, Interrupt("crash", leave, level=ANYWHERE, urgent=True))
 
     def _with_children(self, task: Task) -> Value:
         """The values of the body of TASK, once all that it has spawned has ended."""
@@ -194,7 +211,7 @@ class Lives:
             self._note_unseen(task)
         task.body = task.source = None
         task.interrupts.clear()
-        task.stack = task.ending = None
+        task.stack = task.switch = task.ending = None
         self.scheduler.current = None
         self.scheduler.wake(task.reach(END))
         self.scheduler.wake(task.signal(task.given()))
@@ -276,7 +293,7 @@ def passed_on(task: Task) -> Failure:
     assert first is not None
     failure = Failure(first.cause, *first.arguments)
     failure.condition = first.condition
-    failure.origin = task
+    failure.origin, failure.__cause__ = task, first.__cause__
     task.seen = True
     running.session.scheduler.lives.tell("failure-passed", failure=failure, of=task)
     return failure

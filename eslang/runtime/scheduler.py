@@ -16,11 +16,12 @@ from __future__ import annotations
 from _collections import deque  # type: ignore[import-not-found]  # without the rest of collections
 from _queue import SimpleQueue
 
-from eslang.base import calls
+from eslang.base.calls import depth
 from eslang.base.control import Stop
 from eslang.base.failure import control_error
 from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable
 from eslang.runtime import failures
+from eslang.runtime.bindings import Bindings
 from eslang.runtime.events import Wait
 from eslang.runtime.lives import Lives
 from eslang.runtime.story import place_here
@@ -41,21 +42,24 @@ class Scheduler:
 
     def __init__(self, session: Any, shuffled: bool = False) -> None:
         self.session = session
+        self.bindings: Bindings = session.bindings
         self.shuffled = shuffled
         self.current: Task | None = None
         self.ready: deque[Task] = deque()
         self.timers = Timers()
         self.posted: SimpleQueue[Callable[[], None]] = SimpleQueue()
         self.driver: Stack | None = None
-        self.turns = 0
         self.steps = 0  # how many were made: each turn of a task is one
+        self.turns = 0  # how many may have been made before the driver is to look at clock and posts
         self.watching: list[Wait] = []  # for conditions that may change at any step
-        self.looking = False  # the last step only looked again at a condition
+        self.looked = -1  # the step that only looked again at a condition
         self.outside = 0  # operations that go on outside, and will end a wait
         self.is_open = False  # anything may come from outside
         self.end_deadlock: Callable[[], None] = lambda: None
         self.end_run: Callable[[Stop], None] = lambda stop: None
         self.rest: Callable[[float | None], None] = self._rest
+        self.between: Callable[[], None] | None = None  # what else the driver sees to, between two rounds
+        self.rouse: Callable[[], None] | None = None  # what tells whoever rests that something was posted
         self.lives = Lives(self)
         self.ticks = Ticks(self.safepoint)
         self.calm = session.dynamic  # what is on no task's stack
@@ -70,50 +74,58 @@ class Scheduler:
             self.ready.append(task)
 
     def pause(self, task: Task) -> None:
-        """Let others have their turns, until it is that of TASK, the current one, again."""
-        session = self.session
-        depth = calls.depth
-        if session.bindings.hidden is not None or depth[0]:
-            task.kept, task.depth, depth[0] = session.bindings.take_off(), depth[0], 0
-        self.current = None
-        if task.stack is self.driver:
-            try:
-                self.drive(task)
-            except BaseException:  # what no task could answer
-                self.enter(task)
-                raise
+        """Let others have their turns, until it is that of TASK, the current one, again.
+
+        All switches come through here, which is why it is one piece.
+        """
+        if self.bindings.hidden is not None or depth[0]:
+            self._take_off(task)
+        ready = self.ready
+        if task.switch is None:
+            self._drive_for(task)
+        elif ready and self.steps < self.turns and ready[0].switch is not None:
+            ready.popleft().switch()  # which is a task's stack; it may be the one at hand
         else:
-            self.turns -= 1
-            ready = self.ready
-            stack = ready[0].stack if ready and self.turns > 0 else None
-            if stack is None or stack is self.driver:
-                self.driver.switch()  # type: ignore[union-attr]
-            else:
-                ready.popleft()
-                if stack is not task.stack:
-                    stack.switch()
+            self.current = None
+            self.driver.switch()  # type: ignore[union-attr]
         self.current = task  # as `enter` does, which would be one call more
-        task.queued = self.looking = False
+        task.queued = False
         self.steps += 1
-        session.dynamic = task.dynamic
+        self.session.dynamic = task.dynamic
         self.ticks.source = task.source
-        if task.kept or task.depth:
+        if task.kept is not None:
             self._put_on(task)
 
     def enter(self, task: Task) -> None:
         """Put in force what belongs to TASK, whose turn it is."""
         self.current = task
-        task.queued = self.looking = False
+        task.queued = False
         self.steps += 1
         self.session.dynamic = task.dynamic
         self.ticks.source = task.source
-        if task.kept or task.depth:
+        if task.kept is not None:
             self._put_on(task)
 
+    def _take_off(self, task: Task) -> None:
+        """Let none of the dynamic bindings of TASK, and of its calls through C, be in force."""
+        task.kept = self.bindings.take_off(), depth[0]
+        depth[0] = 0
+
     def _put_on(self, task: Task) -> None:
-        self.session.bindings.put_on(task.kept)
-        calls.depth[0] = task.depth
-        task.kept, task.depth = (), 0
+        """Put them in force again."""
+        if task.kept is not None:
+            bindings, depth[0] = task.kept
+            task.kept = None
+            self.bindings.put_on(bindings)
+
+    def _drive_for(self, task: Task) -> None:
+        """Drive until it is the turn of TASK, which runs on the driver's stack."""
+        self.current = None
+        try:
+            self.drive(task)
+        except BaseException:  # what no task could answer
+            self.enter(task)
+            raise
 
     def drive(self, task: Task | None = None, done: Callable[[], bool] | None = None) -> None:
         """Give out turns until it is that of TASK, which runs on this stack, or DONE says so."""
@@ -126,12 +138,14 @@ class Scheduler:
                 self.take_posts()
             if self.ticks.pending is not None:
                 self.stop_run()
+            if self.between is not None:
+                self.between()
             if timers and timers.fire(self.session.clock.now()):
                 continue
             if not ready:
                 self._idle()
                 continue
-            self.turns = 1 if self.shuffled or self.watching else TURNS
+            self.turns = self.steps + (1 if self.shuffled or self.watching else TURNS)
             other = self._pick()
             if other is task:
                 return
@@ -173,7 +187,7 @@ class Scheduler:
 
     def look_again(self) -> None:
         """Let all that wait for a condition look at it again, unless nothing was done since."""
-        if self.watching and not self.looking:
+        if self.watching and self.looked != self.steps:
             watching, self.watching = self.watching, []
             self.wake(watching)
 
@@ -183,8 +197,13 @@ class Scheduler:
         This step did nothing else if it only looked AGAIN.
         """
         self.watching.append(wait)
-        self.looking = again
+        self.looked = self.steps if again else -1
         self.turns = 0
+
+    def forget(self, wait: Wait) -> None:
+        """Look no more at the condition of WAIT."""
+        if wait in self.watching:
+            self.watching = [other for other in self.watching if other is not wait]
 
     def safepoint(self) -> None:
         """A time slice is over: let others have their turn, and take what came for the current task."""
@@ -200,8 +219,10 @@ class Scheduler:
             stop = self.stop_run()
             if task.dynamic.masked:
                 task.ending = stop
+        if self.between is not None:
+            self.turns = 0
         if not task.dynamic.masked and (
-            self.ready or self.watching or self.timers or not self.posted.empty()
+            self.ready or self.watching or self.timers or self.between or not self.posted.empty()
         ):
             self.yield_turn(task)
         else:
@@ -209,11 +230,13 @@ class Scheduler:
 
     def yield_turn(self, task: Task) -> None:
         """Let the others that are ready have their turns before TASK, the current one, goes on."""
-        self.look_again()
+        if self.watching:
+            self.look_again()
         task.queued = True
         self.ready.append(task)
         self.pause(task)
-        self.attend(task)
+        if task.interrupts or task.ending is not None:
+            self.attend(task)
 
     def at_work(self) -> Task:
         """The current task. Fails with :control-error where there is none that could wait."""
@@ -313,12 +336,14 @@ class Scheduler:
     def post(self, action: Callable[[], None]) -> None:
         """Let ACTION happen between two steps, soon; safe from any thread and from signal handlers."""
         self.posted.put(action)
+        if self.rouse is not None:
+            self.rouse()
 
     def take_posts(self) -> None:
         """Do what was posted."""
         while not self.posted.empty():
             self.posted.get()()
-        self.looking = False
+        self.looked = -1
         self.look_again()
 
     def stop_run(self) -> Stop | None:
@@ -338,7 +363,7 @@ class Scheduler:
         pause = None if moment is None else max(0.0, moment - clock.now())
         if not clock.is_virtual and any(wait.outside and not wait.done for wait in self.watching):
             self.rest(POLL if pause is None else min(POLL, pause))
-            self.looking = False
+            self.looked = -1
             self.look_again()
         elif self.outside or self.is_open or pause is not None:
             self.rest(pause)

@@ -66,7 +66,6 @@ class Task(Event):
         "checkpoints",
         "children",
         "daemon",
-        "depth",
         "dynamic",
         "ending",
         "failure",
@@ -82,6 +81,7 @@ class Task(Event):
         "source",
         "stack",
         "status",
+        "switch",
         "unseen",
         "values",
         "wait",
@@ -95,6 +95,7 @@ class Task(Event):
         self.children: dict[Task, None] | None = None  # those that it has spawned, while they live
         self.dynamic = Dynamic()
         self.stack: Any = None  # the greenlet, once it runs
+        self.switch: Any = None  # goes on with that; None if only the driver can let it go on
         self.status: Keyword | None = None  # how it ended
         self.values: Value = None  # what it gave, all values
         self.failure: Failure | None = None  # what ended it
@@ -106,8 +107,7 @@ class Task(Event):
         self.ending: EndTask | Stop | None = None  # it was aborted, or the run is to end
         self.daemon = False
         self.is_root = False  # entered from outside: what it spawns belongs to the run
-        self.kept: tuple[Any, ...] = ()  # its dynamic bindings, while others run
-        self.depth = 0  # of its calls through C
+        self.kept: tuple[Any, int] | None = None  # while others run: its bindings, its calls through C
         self.source: Any = None  # of the ticks of its loops
         self.checkpoints: dict[Any, Event] | None = None  # that somebody waits for
         self.reached: dict[Any, None] | None = None  # checkpoints that it has passed
