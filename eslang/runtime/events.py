@@ -25,7 +25,7 @@ class Event(Datum):
 
     def __init__(self, name: Value = None) -> None:
         self.name = name
-        self.waits: dict[Wait, None] | None = None
+        self.waits: Wait | dict[Wait, None] | None = None  # one alone, as most are, without a dict
 
     def print_lisp(self, settings: Any) -> str:
         """How the printer shows it."""
@@ -33,11 +33,11 @@ class Event(Datum):
 
     def signal(self, arguments: Arguments) -> Iterable[Wait]:
         """End all waits for this, each once; their tasks are to be made ready by the caller."""
-        waits = self.waits
+        waits, self.waits = self.waits, None
         if waits is None:
             return ()
-        self.waits = None
-        for wait in waits:
+        ended = (waits,) if waits.__class__ is Wait else waits
+        for wait in ended:
             if wait.test is not None:
                 wait.offers.append(arguments)
                 self.expect(wait)
@@ -46,13 +46,25 @@ class Event(Datum):
                 wait.result = arguments
                 if wait.several:
                     wait.withdraw()
-        return waits
+        return ended
 
     def expect(self, wait: Wait) -> None:
         """Let WAIT be woken by the next signal."""
-        if self.waits is None:
-            self.waits = {}
-        self.waits[wait] = None
+        waits = self.waits
+        if waits is None:
+            self.waits = wait
+        elif isinstance(waits, Wait):
+            self.waits = {waits: None, wait: None}
+        else:
+            waits[wait] = None
+
+    def forget(self, wait: Wait) -> None:
+        """Let no signal wake WAIT any more."""
+        waits = self.waits
+        if waits is wait:
+            self.waits = None
+        elif waits is not None and not isinstance(waits, Wait):
+            waits.pop(wait, None)
 
 
 class Wait:
@@ -80,10 +92,13 @@ class Wait:
         if test is not None:
             self.offers: list[Arguments] = []
         for event in events:
-            if event.waits is None:
-                event.waits = {self: None}
-            else:
-                event.waits[self] = None
+            event.expect(self)
+
+    def again(self, event: Event) -> None:
+        """Let this, which is over, be a wait for EVENT: that is cheaper than a new one."""
+        self.done = False
+        self.of = self.events = (event,)
+        event.expect(self)
 
     def end(self, result: Any) -> None:
         """It is over, with RESULT."""
@@ -101,8 +116,7 @@ class Wait:
     def withdraw(self) -> None:
         """Let no event wake it any more."""
         for event in self.events:
-            if event.waits is not None:
-                event.waits.pop(self, None)
+            event.forget(self)
 
     def consider(self) -> bool:
         """Ask the test about the signals that came, in their order; true if one ends the wait."""

@@ -22,7 +22,7 @@ from eslang.base.failure import control_error
 from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable
 from eslang.runtime import failures
 from eslang.runtime.bindings import Bindings
-from eslang.runtime.events import Wait
+from eslang.runtime.events import Arguments, Event, Wait
 from eslang.runtime.lives import Lives
 from eslang.runtime.story import place_here
 from eslang.runtime.tasks import Interrupt, Task
@@ -267,6 +267,18 @@ class Scheduler:
                 wait.withdraw()
             if hooks.listeners:
                 hooks.tell("resume", on=wait.kind, of=wait.of, how=wait.how)
+
+    def wait_for(self, event: Event) -> Arguments:
+        """Wait until EVENT is signalled; what came with the signal. It is the commonest of waits."""
+        task = self.at_work()
+        wait, task.spare = task.spare, None
+        if wait is None:
+            wait = Wait(task, "events", (event,), (event,))
+        else:
+            wait.again(event)
+        arguments: Arguments = self.wait(wait)
+        task.spare = wait
+        return arguments
 
     def attend(self, task: Task) -> bool:
         """Do what interrupts ask of TASK, the current one, if nothing holds them off; true if any did."""

@@ -79,6 +79,7 @@ class Task(Event):
         "reached",
         "seen",
         "source",
+        "spare",
         "stack",
         "status",
         "switch",
@@ -103,6 +104,7 @@ class Task(Event):
         self.unseen: Task | None = None  # one that it has spawned, which failed while nobody looked
         self.queued = False  # among the ready
         self.wait: Wait | None = None  # the innermost
+        self.spare: Wait | None = None  # one that is over, for an event: the next may use it again
         self.interrupts: list[Interrupt] = []
         self.ending: EndTask | Stop | None = None  # it was aborted, or the run is to end
         self.daemon = False

@@ -5,11 +5,11 @@ from __future__ import annotations
 from eslang.base.failure import type_error
 from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items, items, lisp_list
-from eslang.base.many import pack, primary
+from eslang.base.many import pack
 from eslang.base.running import running, to_function
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.runtime.events import Event, Wait
+from eslang.runtime.events import Arguments, Event, Wait
 from eslang.runtime.tasks import Task
 
 DEFVAR, QUOTE = (Symbol.intern(name, CL) for name in ("DEFVAR", "QUOTE"))
@@ -53,19 +53,26 @@ def defevent(form: Cons, environment: Any) -> Value:
     return Cons(DEFVAR, Cons(name, Cons(lisp_list(MAKE_EVENT, lisp_list(QUOTE, name)), form.cdr.cdr)))
 
 
-def wait_for_events_values(events: Value, test: Value = None) -> Value:
-    """All the arguments that came with the signal."""
+def arguments_of_signal(events: Value, test: Value) -> Arguments:
+    """Wait for EVENTS; what came with the signal."""
     scheduler = running.session.scheduler
+    if events.__class__ is Event and test is None:
+        return scheduler.wait_for(events)
     listed = events is None or events.__class__ is Cons
     wanted = tuple(map(as_event, items(events))) if listed else (as_event(events),)
     for event in wanted:
         if isinstance(event, Task):
             event.seen = True
             if event.status is not None and test is None:
-                return pack(event.given())
+                return event.given()
     task = scheduler.at_work()
     asked = None if test is None else to_function(test)
-    return pack(scheduler.wait(Wait(task, "events", wanted, wanted, asked)))
+    return scheduler.wait(Wait(task, "events", wanted, wanted, asked))
+
+
+def wait_for_events_values(events: Value, test: Value = None) -> Value:
+    """All the arguments that came with the signal."""
+    return pack(arguments_of_signal(events, test))
 
 
 @function("(wait-for-events events &optional test)", ESL, many=wait_for_events_values)
@@ -89,7 +96,8 @@ def wait_for_events(events: Value, test: Value = None) -> Value:
 
     Source: ESL §4.1. Where TEST is asked: decision 17.
     """
-    return primary(wait_for_events_values(events, test))
+    arguments = arguments_of_signal(events, test)
+    return arguments[0] if arguments else None
 
 
 @function("(signal event &rest arguments)", ESL)
