@@ -1,0 +1,1 @@
+"""Plans made of tasks, by chance: written, run, and looked at when they have ended."""
