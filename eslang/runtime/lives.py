@@ -7,6 +7,8 @@ spawned; what is then known of it stays: status, values, failure, checkpoints.
 
 from __future__ import annotations
 
+from _weakref import ref
+
 from eslang.base.control import EndTask, Failed, Stop, Unwind
 from eslang.base.failure import Failure, control_error
 from eslang.base.hints import TYPE_CHECKING, Any, Callable
@@ -43,6 +45,7 @@ class Lives:
         self.count = 0  # how many are alive
         self.crash: BaseException | None = None  # what no task could answer
         self.unseen: Task | None = None  # one of the run's own, which failed while nobody looked
+        self.recent: Any = None  # where those that have ended are noted, if anybody wants to know
         self._names: dict[str, int] = {}
         self._spare: list[Stack] = []
         self._next: Task | None = None  # the one that is to begin
@@ -96,25 +99,36 @@ class Lives:
             raise crash
 
     def _stack(self) -> Stack:
-        from greenlet import greenlet
+        from greenlet import getcurrent, greenlet
 
-        return greenlet(self._serve)
+        lives = ref(self)
 
-    def _serve(self) -> None:
-        """Run tasks on this stack, one after the other, as long as it is kept."""
-        scheduler = self.scheduler
-        while True:
-            task, self._next = self._next, None
-            if task is None:
-                return
-            stack: Any = task.stack
-            self._live(task)
-            stack.parent = scheduler.driver
-            if len(self._spare) >= SPARE:
-                return
-            self._spare.append(stack)
-            del task
-            stack.parent.switch()
+        def serve() -> None:
+            """Run tasks on this stack, one after the other, as long as it is kept.
+
+            While it waits it holds nothing: what a stack holds, Python's collector of garbage cannot see.
+            """
+            while True:
+                owner = lives()
+                if owner is None or not owner.serve():
+                    return
+                del owner
+                getcurrent().parent.switch()
+
+        return greenlet(serve)
+
+    def serve(self) -> bool:
+        """Let the task that is to begin live on the stack at hand; true if that is kept afterwards."""
+        task, self._next = self._next, None
+        if task is None:
+            return False
+        stack: Any = task.stack
+        self._live(task)
+        stack.parent = self.scheduler.driver
+        if len(self._spare) >= SPARE:
+            return False
+        self._spare.append(stack)
+        return True
 
     def forget_spare(self) -> None:
         """Forget the stacks that are kept: they belong to a thread that is gone."""
@@ -209,6 +223,8 @@ class Lives:
             task.parent.children.pop(task, None)
         if status is FAILED:
             self._note_unseen(task)
+        if self.recent is not None and not task.is_root:
+            self.recent.append(task)
         task.body = task.source = None
         task.interrupts.clear()
         task.stack = task.switch = task.ending = None

@@ -138,14 +138,16 @@ def wait_until_function(condition: Value, test: Any, *options: Value) -> Value:
     (timeout,) = take_keys(options, ("TIMEOUT",))
     scheduler = running.session.scheduler
     wait = Wait(scheduler.at_work(), CONDITION, condition, (), test)
-    if timeout is None:
-        scheduler.wait(wait)
-        return T
-    timer = scheduler.set_timer(seconds_of(timeout, "wait-until"), lambda: scheduler.end_wait(wait, False))
+    timer = None
+    if timeout is not None:
+        seconds = seconds_of(timeout, "wait-until")
+        timer = scheduler.set_timer(seconds, lambda: scheduler.end_wait(wait, False))
     try:
         came = scheduler.wait(wait)
     finally:
-        scheduler.timers.call_off(timer)
+        scheduler.forget(wait)
+        if timer is not None:
+            scheduler.timers.call_off(timer)
     return T if came else failures.signal(Failure(TIMEOUT, timeout), continuable=True)
 
 
