@@ -10,7 +10,7 @@ from __future__ import annotations
 import sys
 
 from eslang import library
-from eslang.base.border import leave, to_lisp, to_python
+from eslang.base.border import to_lisp, to_python
 from eslang.base.calls import spread
 from eslang.base.control import Stop
 from eslang.base.decoding import decode, file_bytes
@@ -22,17 +22,18 @@ from eslang.base.many import values_list
 from eslang.base.packages import Package
 from eslang.base.printer import prin1
 from eslang.base.resolve import resolve_in
-from eslang.base.running import running, to_function
+from eslang.base.running import to_function
 from eslang.base.spans import Source, Spans
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import String
 from eslang.base.words import SPECIAL_FORMS
 from eslang.compile.registry import Definition
 from eslang.compile.support import SUPPORT
+from eslang.doors import AtWork, Door
 from eslang.facts.unify import Patterns
 from eslang.lisp.loading import LOAD_PATHNAME
 from eslang.lisp.streams import OutputStream, standard_output
-from eslang.primitives import COMES, make_primitive
+from eslang.primitives import make_primitive
 from eslang.runtime import failures
 from eslang.runtime.bindings import Bindings
 from eslang.runtime.chance import make_chance
@@ -48,8 +49,10 @@ if TYPE_CHECKING:
 
     from eslang.compile.toplevel import Compiler
     from eslang.constructs.esl.doubles import Double
+    from eslang.outside import Outside
     from eslang.reader.reader import Reading
 
+COMES = "needs the logical database, which this version of eslang does not have yet"
 DEEPEST = 400_000  # Python frames; what is deeper is a :stack-exhausted failure
 
 
@@ -96,6 +99,7 @@ class Interpreter:
         self.ticks = self.scheduler.ticks
         self.hooks = Hooks(self.clock.now, lambda: self.scheduler.current)
         self.closed = False
+        self._outside: Outside | None = None
         self.touched = 0  # how often a plan read what may change by itself
         self._library = True  # what is defined now is the library's
         self.support = {**SUPPORT, **self.bindings.support(), **failures.SUPPORT, "%ticks": self.ticks}
@@ -197,9 +201,29 @@ class Interpreter:
     def call(self, name: str | Symbol, *arguments: Any) -> Any:
         """Call a function by name (or a function itself); runs until it ends. Raises Failure."""
         with self.door():
-            designator: Any = self.symbol(name) if isinstance(name, str) else name
-            values = [to_lisp(argument) for argument in arguments]
-            return to_python(self.runs.run(lambda: spread(to_function(designator), values)))
+            return to_python(self.runs.run(self._calling(name, arguments)))
+
+    def _calling(self, name: str | Symbol, arguments: tuple[Any, ...]) -> Callable[[], Value]:
+        designator: Any = self.symbol(name) if isinstance(name, str) else name
+        values = [to_lisp(argument) for argument in arguments]
+        return lambda: spread(to_function(designator), values)
+
+    async def call_async(self, name: str | Symbol, *arguments: Any) -> Any:
+        """The same as a task, within the running asyncio loop; if this is cancelled, the task is aborted."""
+        guest = self.outside.at_call()
+        return await guest.call(str(name).lower(), self._calling(name, arguments))
+
+    def signal(self, name: str | Symbol, *arguments: Any) -> None:
+        """Signal the event named by a DEFEVENT; from any thread. Raises Failure if NAME is none."""
+        from eslang.posts import post_signal
+
+        post_signal(self, name, arguments)
+
+    def post(self, function: Callable[[], object]) -> None:
+        """Call FUNCTION in a task of its own, soon; from any thread."""
+        from eslang.posts import post_call
+
+        post_call(self, function)
 
     def symbol(self, text: str) -> Symbol | None:
         """The symbol that TEXT names in the current package, as the reader would read it."""
@@ -247,14 +271,12 @@ class Interpreter:
 
         Raising Failure in it is (fail ...); any other error is a :python-error failure.
         What it gives may change by itself, as a sensor does, unless OUTSIDE is False: a
-        condition that calls it is looked at again and again as real time passes.
+        condition that calls it is looked at again and again as real time passes. An `async
+        def` is awaited, and BLOCKING lets it run in a thread: its task waits, others go on.
         """
 
-        if blocking:
-            raise NotImplementedError(f"a blocking primitive {COMES}")
-
         def register(made: Any) -> Any:
-            definition = make_primitive(made, name, signature, outside)
+            definition = make_primitive(made, name, signature, outside, blocking)
             symbol = self.symbol(definition.name)
             if symbol is None or symbol.package == "COMMON-LISP":
                 raise error_at(
@@ -308,9 +330,9 @@ class Interpreter:
 
     def interrupt(self, reason: str = "interrupted", code: int = 130) -> None:
         """Stop what runs, soon, with its cleanups; safe to call from a signal handler."""
-        self.ticks.stop(Stop(reason, code))
-        self.scheduler.post(lambda: None)  # whoever rests is to look
-        self.scheduler.post(lambda: None)  # it may sleep
+        if self.runs.lives.count:
+            self.ticks.stop(Stop(reason, code))
+            self.scheduler.post(lambda: None)  # whoever rests is to look
 
     def door(self) -> Door:
         """Inside it, this interpreter is at work for Python code. Raises Failure if it is closed."""
@@ -318,13 +340,48 @@ class Interpreter:
             raise Failure("interpreter-closed")
         return Door(self)
 
-    def close(self) -> None:
-        """End this interpreter; nothing can be called on it afterwards."""
-        self.closed = True
+    @property
+    def outside(self) -> Outside:
+        """What goes on outside for its tasks, made when first wanted."""
+        if self._outside is None:
+            from eslang.outside import Outside
 
-    if not TYPE_CHECKING:  # each a property: a __getattr__ would slow all of the session's attributes down
-        signal, call_async = coming("signal", COMES), coming("call_async", COMES)
-        facts = coming("facts", COMES.replace("tasks", "the logical database"))
+            self._outside = Outside(self)
+        return self._outside
+
+    # --- ends --------------------------------------------------------------------
+
+    def finish(self) -> None:
+        """Wait for what was spawned, and abort the daemons. Raises a failure nobody saw."""
+        with self.door():
+            self.runs.finish()
+
+    async def finish_async(self) -> None:
+        """The same within the running asyncio loop."""
+        await self.outside.at_call().finish()
+
+    def close(self) -> None:
+        """Abort what runs, with its cleanups, and end; nothing can be called on it afterwards."""
+        if self.closed:
+            return
+        self.runs.check_outside()
+        try:
+            with self.at_work():
+                self.runs.abort_all()
+        finally:
+            self.closed = True
+            self.runs.lives.drop_spare()
+            if self._outside is not None:
+                self._outside.close()
+
+    async def close_async(self) -> None:
+        """The same within the running asyncio loop, which goes on meanwhile."""
+        if not self.closed:
+            await self.outside.at_call().close()
+            self.close()
+
+    if not TYPE_CHECKING:  # a property: a __getattr__ would slow all of the session's attributes down
+        facts = coming("facts", COMES)
 
     def __enter__(self) -> Interpreter:
         return self
@@ -332,29 +389,8 @@ class Interpreter:
     def __exit__(self, *error: object) -> None:
         self.close()
 
+    async def __aenter__(self) -> Interpreter:
+        return self
 
-class AtWork:
-    """Sets the interpreter at work, and sets back the one that was."""
-
-    __slots__ = ("before", "interpreter")
-
-    def __init__(self, interpreter: Interpreter) -> None:
-        self.interpreter = interpreter
-        self.before: Any = None
-
-    def __enter__(self) -> None:
-        self.before, running.session = running.session, self.interpreter
-
-    def __exit__(self, *error: object) -> None:
-        running.session = self.before
-
-
-class Door(AtWork):
-    """The same for Python code: a failure leaves with arguments as Python has them."""
-
-    __slots__ = ()
-
-    def __exit__(self, *error: object) -> None:
-        running.session = self.before
-        if isinstance(error[1], Failure):
-            leave(error[1])
+    async def __aexit__(self, *error: object) -> None:
+        await self.close_async()

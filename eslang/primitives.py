@@ -7,6 +7,8 @@ failure there.
 
 from __future__ import annotations
 
+from types import CoroutineType
+
 from eslang.base.border import enter, to_lisp, to_python
 from eslang.base.calls import reenter, spread
 from eslang.base.errors import python_failure
@@ -19,14 +21,18 @@ from eslang.compile.registry import ESL, Definition
 from eslang.compile.signatures import Arity, arity, read_signature
 from eslang.runtime import failures
 
-COROUTINE = 0x80 | 0x200  # what Python marks the code of an `async def` with
-COMES = "needs tasks, which this version of eslang does not have yet"
+COROUTINE, GENERATOR = 0x80, 0x200  # what Python marks the code of an `async def` with, and if it yields
 
 
-def make_primitive(function: Any, name: str | None, signature: str | None, outside: bool) -> Definition:
+def make_primitive(
+    function: Any, name: str | None, signature: str | None, outside: bool, blocking: bool
+) -> Definition:
     """The definition of a primitive, named and described as asked, or after the Python function."""
-    if getattr(getattr(function, "__code__", None), "co_flags", 0) & COROUTINE:
-        raise NotImplementedError(f"{function.__name__} is an `async def`; a primitive that waits {COMES}")
+    flags = getattr(getattr(function, "__code__", None), "co_flags", 0)
+    if flags & GENERATOR:
+        raise TypeError(f"{function.__name__} yields, and gives no result: it cannot be a primitive")
+    if flags & COROUTINE and blocking:
+        raise TypeError(f"{function.__name__} is an `async def`, which is not run in a thread")
     if signature is None:
         signature = _signature(function, name or lisp_name(function.__name__).lower())
     name = name or str(read_signature(signature)[0])
@@ -34,11 +40,15 @@ def make_primitive(function: Any, name: str | None, signature: str | None, outsi
     definition = Definition("function", name.upper(), ESL, shown, None)
     definition.documentation = function.__doc__ or ""
     called = name.upper().rpartition(":")[2]
-    definition.implementation = _wrapped(function, called, arity(signature), _positional(signature), outside)
+    definition.implementation = _wrapped(
+        function, called, arity(signature), _positional(signature), outside, blocking
+    )
     return definition
 
 
-def _wrapped(function: Any, name: str, expected: Arity, positional: int | None, outside: bool) -> Any:
+def _wrapped(
+    function: Any, name: str, expected: Arity, positional: int | None, outside: bool, blocking: bool
+) -> Any:
     """The Lisp function that calls a Python one across the border."""
 
     def primitive(*arguments: Value) -> Value:
@@ -54,20 +64,32 @@ def _wrapped(function: Any, name: str, expected: Arity, positional: int | None, 
         if positional is not None:
             keywords = _keywords(list(arguments[positional:]), given[positional:], expected)
             given = given[:positional]
-        try:
-            result = reenter(function, given, keywords) if keywords else spread(function, given)
-        except Failure as failure:
-            enter(failure)
-            return failures.signal(failure, continuable=True)
-        except RecursionError:
-            raise  # the stack is the plan's as much as the primitive's
-        except Exception as error:
-            return failures.signal(python_failure(error), continuable=False)
-        return to_lisp(result)
+        return run_python(function, given, keywords, name, blocking)
 
     primitive.__name__ = primitive.__qualname__ = name
     primitive.__doc__ = function.__doc__
     return primitive
+
+
+def run_python(
+    function: Any, given: list[Any], keywords: dict[str, Any], name: str, blocking: bool = False
+) -> Value:
+    """What FUNCTION gives for the primitive NAME, as Lisp has it; the task waits if that takes time."""
+    try:
+        if blocking:
+            result = running.session.outside.await_blocking(function, given, keywords, name)
+        else:
+            result = reenter(function, given, keywords) if keywords else spread(function, given)
+            if result.__class__ is CoroutineType:
+                result = running.session.outside.await_coroutine(result, name)
+    except Failure as failure:
+        enter(failure)
+        return failures.signal(failure, continuable=True)
+    except RecursionError:
+        raise  # the stack is the plan's as much as the primitive's
+    except Exception as error:
+        return failures.signal(python_failure(error), continuable=False)
+    return to_lisp(result)
 
 
 def _keywords(names: list[Value], values: list[Any], expected: Arity) -> dict[str, Any]:

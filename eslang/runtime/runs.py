@@ -93,24 +93,35 @@ class Runs:
         return current is not None and get_ident() == self._ident and self.scheduler.is_on_stack(current)
 
     def begin(self) -> None:
-        """Let the stack at hand be where this is at work; the gate is to be released. Refused if another is."""
+        """Let the stack at hand be where this is at work, until the gate is released."""
         if not self.gate.acquire(False):
-            raise control_error(self._obstacle())
+            raise control_error(self.obstacle())
         if get_ident() == self._ident:
             return
         if self.lives.count:
             self.gate.release()
-            raise control_error("the tasks of this interpreter live in another thread; signal them from there")
+            raise control_error(
+                "the tasks of this interpreter live in another thread; signal them from there"
+            )
         self._ident = get_ident()
         self.scheduler.driver = None
         self.lives.forget_spare()
 
-    def _obstacle(self) -> str:
+    def check_outside(self) -> None:
+        """Refuse what cannot be done from within, nor in another thread than that of the tasks."""
+        self.begin()
+        self.gate.release()
+
+    def obstacle(self) -> str:
         """Why this cannot be entered, now that it is at work."""
         if get_ident() != self._ident:
             return "this interpreter is at work in another thread; signal it from there"
+        if self.is_inside():
+            return "this cannot be done from within a task of the interpreter"
         if self.scheduler.current is None:
-            return "this interpreter waits in a call; only `call_async`, in a coroutine, can call it meanwhile"
+            return (
+                "this interpreter waits in a call; only `call_async`, in a coroutine, can call it meanwhile"
+            )
         return "this interpreter waits for another one, which cannot call it"
 
     # --- ends --------------------------------------------------------------------
@@ -119,6 +130,10 @@ class Runs:
         """Let the run end: wait for what was spawned, and abort the daemons. Raises a failure nobody saw."""
         self.drive_until(lambda: all(task.daemon for task in self.lives.tops))
         self.abort_all()
+        self.raise_unseen()
+
+    def raise_unseen(self) -> None:
+        """Raise a failure of the run's own tasks that nobody has looked at."""
         unseen, self.lives.unseen = self.lives.unseen, None
         if unseen is not None and not unseen.seen:
             raise passed_on(unseen)

@@ -197,19 +197,3 @@ def test_what_python_raises_to_leave_goes_through(agent: Interpreter) -> None:
             "(with-recovery-procedures ((:general-failure (abort))) (unwind-protect (leave) (setf *left* t)))"
         )
     assert agent.value("*left*") is True
-
-
-# --- what comes later ---------------------------------------------------------------
-
-
-def test_an_async_primitive_is_refused(agent: Interpreter) -> None:
-    async def wait() -> None:
-        """Wait for something."""
-
-    with pytest.raises(NotImplementedError, match=r"`async def`.*needs tasks.*not have yet"):
-        agent.primitive(wait)
-
-
-def test_a_blocking_primitive_is_refused(agent: Interpreter) -> None:
-    with pytest.raises(NotImplementedError, match=r"blocking primitive needs tasks.*not have yet"):
-        agent.primitive(blocking=True)

@@ -1,0 +1,61 @@
+"""Posts: what other threads, and coroutines, may ask of an interpreter at any time.
+
+What is posted is done between two steps, soon; before anything else, if
+nothing is at work when it comes. A mistake is found at once, where it is made.
+"""
+
+from __future__ import annotations
+
+from eslang.base.border import to_lisp
+from eslang.base.failure import Failure, type_error, unbound_variable
+from eslang.base.hints import TYPE_CHECKING, Any, Callable
+from eslang.base.symbols import Symbol, Value
+from eslang.constructs.esl.events import signal_event
+from eslang.primitives import run_python
+from eslang.runtime.events import Event
+
+if TYPE_CHECKING:
+    from eslang.interpreter import Interpreter
+
+
+def post_signal(session: Interpreter, name: str | Symbol, arguments: tuple[Any, ...]) -> None:
+    """Signal the event that the global variable NAME holds. Where no task is alive, nobody waits for it."""
+    event = event_called(session, name)
+    values = [to_lisp(argument) for argument in arguments]
+    if session.runs.lives.count:
+        session.scheduler.post(lambda: signal_event(event, *values))
+
+
+def event_called(session: Interpreter, name: str | Symbol) -> Event:
+    """The event of the DEFEVENT for NAME. Raises Failure, as for any other thread nothing is to change."""
+    symbol = find(session, name) if isinstance(name, str) else name
+    if symbol is None:
+        raise unbound_variable(Symbol.intern(str(name).upper(), "ESL-USER"))
+    value: Value = getattr(session.image.cell(symbol), "value", None)
+    if value is None:
+        raise unbound_variable(symbol)
+    if not isinstance(value, Event):
+        raise type_error(value, Symbol.intern("EVENT", "ESL"), Symbol.intern("SIGNAL", "ESL"))
+    return value
+
+
+def find(session: Interpreter, text: str) -> Symbol | None:
+    """The symbol that TEXT names in the current package, if there is one; none is made."""
+    package, mark, name = text.upper().rpartition(":")
+    where = session.image.package if not mark else session.image.packages.get(package.rstrip(":"))
+    symbol, found = where.find(name) if where is not None else (None, False)
+    return symbol if found else None
+
+
+def post_call(session: Interpreter, function: Callable[[], object]) -> None:
+    """Call FUNCTION in a task of its own, which belongs to the run."""
+    if session.closed:
+        raise Failure("interpreter-closed")
+    lives = session.runs.lives
+
+    def begin() -> None:
+        task = lives.create("posted", lambda: run_python(function, [], {}, "posted"))
+        task.is_root = True
+        lives.start(task, "spawned")
+
+    session.scheduler.post(begin)
