@@ -120,10 +120,7 @@ class Lives:
             for name in told["wakes"]:
                 self._woken[name] = ("signal", life.name, number)
         elif kind == "failure-passed":
-            child = self.life(told["of"], number)
-            self._arrow(
-                "failure", child.name, number if child.ended is None else child.ended, life.name, number
-            )
+            self._arrow("failure", told["of"], number, life.name, number)
         elif kind == "failure":
             life.place = record.form
 
@@ -165,6 +162,8 @@ class Lives:
 
     def _arrow(self, kind: str, source: str | None, first: int, target: str, last: int) -> None:
         if source is not None and source != target:
+            ended = self.life(source, first).ended
+            first = first if ended is None else min(first, ended)
             self.arrows.append(Arrow(kind, source, first, target, last))
 
     def _turn(self, life: Life, number: int) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -61,7 +62,10 @@ def listed(names: list[Any]) -> str:
 
 
 def failure_words(failure: dict[str, Any]) -> str:
-    """The cause of FAILURE, and its arguments."""
+    """The cause of FAILURE, and its arguments; of a deadlock only who is in it."""
+    if failure["cause"] == ":DEADLOCK":
+        found = [re.match(r'\("([^"]*)"', value_text(argument)) for argument in failure["arguments"]]
+        return f":DEADLOCK of {listed([match[1] for match in found if match])}"
     return " ".join([failure["cause"], *map(value_text, failure["arguments"])])
 
 

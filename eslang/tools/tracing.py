@@ -87,7 +87,7 @@ class Tracer:
         if isinstance(value, Place):
             return str(value)
         if isinstance(value, Waiting):
-            return {name: self.plain(part) for name, part in value._asdict().items()}
+            return {name: self.plain(getattr(value, name)) for name in value._fields}
         if isinstance(value, (list, tuple)):
             return [self.plain(part) for part in value]
         return shown(value)
