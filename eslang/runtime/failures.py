@@ -68,8 +68,9 @@ class Clause(NamedTuple):
 class Form:
     """One entrance of a form that answers failures: its clauses, procedures, and how often each was used."""
 
-    __slots__ = ("clauses", "live", "outer", "procedures", "used")
+    __slots__ = ("clauses", "live", "logical", "outer", "procedures", "used")
     outer: Form | None
+    logical: dict[Value, Value]  # what logic variables are bound to where it stands
     clauses: tuple[Clause, ...]
     procedures: tuple[Callable[..., Value], ...]
     used: list[int]
@@ -166,6 +167,7 @@ def answer(failure: Failure, continuable: bool) -> Value:
             if hooks.listeners or hooks.speakers:
                 tell_recovery(session, form.clauses[index], used, failure)
             procedure, arguments = form.procedures[index], failure.arguments
+            logical, dynamic.logical = dynamic.logical, form.logical
             dynamic.forms = form
             dynamic.answering.append(failure)
             try:
@@ -178,6 +180,7 @@ def answer(failure: Failure, continuable: bool) -> Value:
             finally:
                 dynamic.answering.pop()
                 dynamic.forms = innermost
+                dynamic.logical = logical
             if hooks.listeners:
                 tell_recovery_end(session, failure, value, continuable)
             if value.__class__ is RetryNow or value.__class__ is AbortNow:
@@ -205,6 +208,7 @@ def _offer(session: Any, form: Form, index: int, failure: Failure) -> None:
     if clause.takes is None or not clause.takes(failure):
         return
     saved, dynamic.forms = dynamic.forms, form.outer
+    logical, dynamic.logical = dynamic.logical, form.logical
     dynamic.answering.append(failure)
     try:
         form.procedures[index](failure)
@@ -216,6 +220,7 @@ def _offer(session: Any, form: Form, index: int, failure: Failure) -> None:
     finally:
         dynamic.answering.pop()
         dynamic.forms = saved
+        dynamic.logical = logical
 
 
 def signal_error(error: Exception) -> None:
@@ -240,6 +245,7 @@ def run_form(
     dynamic: Dynamic = session.dynamic
     rounds: Iterator[None] = session.ticks.source
     outer = form.outer = dynamic.forms
+    form.logical = dynamic.logical
     form.clauses = clauses
     form.procedures = procedures
     form.used = [0] * len(clauses)
