@@ -36,7 +36,7 @@ class Event(Datum):
         waits, self.waits = self.waits, None
         if waits is None:
             return ()
-        ended = (waits,) if waits.__class__ is Wait else waits
+        ended = (waits,) if isinstance(waits, Wait) else waits
         for wait in ended:
             if wait.test is not None:
                 wait.offers.append(arguments)

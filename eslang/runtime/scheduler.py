@@ -49,8 +49,8 @@ class Scheduler:
         self.timers = Timers()
         self.posted: SimpleQueue[Callable[[], None]] = SimpleQueue()
         self.driver: Stack | None = None
-        self.steps = 0  # how many were made: each turn of a task is one
-        self.turns = 0  # how many may have been made before the driver is to look at clock and posts
+        self.granted = 0  # how many turns were given out, those to come among them
+        self.turns = 0  # how many may go from task to task before the driver is to look at clock and posts
         self.watching: list[Wait] = []  # for conditions that may change at any step
         self.looked = -1  # the step that only looked again at a condition
         self.outside = 0  # operations that go on outside, and will end a wait
@@ -64,6 +64,11 @@ class Scheduler:
         self.ticks = Ticks(self.safepoint)
         self.calm = session.dynamic  # what is on no task's stack
         self.calm_source = self.ticks.source
+
+    @property
+    def steps(self) -> int:
+        """How many steps were made: each turn of a task is one."""
+        return self.granted - self.turns
 
     # --- turns -----------------------------------------------------------------
 
@@ -83,14 +88,14 @@ class Scheduler:
         ready = self.ready
         if task.switch is None:
             self._drive_for(task)
-        elif ready and self.steps < self.turns and ready[0].switch is not None:
+        elif ready and self.turns and ready[0].switch is not None:
+            self.turns -= 1
             ready.popleft().switch()  # which is a task's stack; it may be the one at hand
         else:
             self.current = None
             self.driver.switch()  # type: ignore[union-attr]
         self.current = task  # as `enter` does, which would be one call more
         task.queued = False
-        self.steps += 1
         self.session.dynamic = task.dynamic
         self.ticks.source = task.source
         if task.kept is not None:
@@ -100,7 +105,6 @@ class Scheduler:
         """Put in force what belongs to TASK, whose turn it is."""
         self.current = task
         task.queued = False
-        self.steps += 1
         self.session.dynamic = task.dynamic
         self.ticks.source = task.source
         if task.kept is not None:
@@ -145,7 +149,9 @@ class Scheduler:
             if not ready:
                 self._idle()
                 continue
-            self.turns = self.steps + (1 if self.shuffled or self.watching else TURNS)
+            turns = 0 if self.shuffled or self.watching else TURNS
+            self.granted += 1 + turns - self.turns
+            self.turns = turns
             other = self._pick()
             if other is task:
                 return
@@ -197,8 +203,9 @@ class Scheduler:
         This step did nothing else if it only looked AGAIN.
         """
         self.watching.append(wait)
-        self.looked = self.steps if again else -1
+        self.granted -= self.turns
         self.turns = 0
+        self.looked = self.granted if again else -1
 
     def forget(self, wait: Wait) -> None:
         """Look no more at the condition of WAIT."""

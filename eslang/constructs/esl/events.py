@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from eslang.base.failure import type_error
-from eslang.base.hints import Any
+from eslang.base.hints import TYPE_CHECKING, Any
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.many import pack
 from eslang.base.running import running, to_function
@@ -11,6 +11,9 @@ from eslang.base.symbols import Symbol, Value
 from eslang.compile.registry import CL, ESL, function, macro
 from eslang.runtime.events import Arguments, Event, Wait
 from eslang.runtime.tasks import Task
+
+if TYPE_CHECKING:
+    from eslang.runtime.scheduler import Scheduler
 
 DEFVAR, QUOTE = (Symbol.intern(name, CL) for name in ("DEFVAR", "QUOTE"))
 EVENT, MAKE_EVENT, SIGNAL, WAIT_FOR_EVENTS = (
@@ -55,7 +58,7 @@ def defevent(form: Cons, environment: Any) -> Value:
 
 def arguments_of_signal(events: Value, test: Value) -> Arguments:
     """Wait for EVENTS; what came with the signal."""
-    scheduler = running.session.scheduler
+    scheduler: Scheduler = running.session.scheduler
     if events.__class__ is Event and test is None:
         return scheduler.wait_for(events)
     listed = events is None or events.__class__ is Cons
@@ -67,7 +70,8 @@ def arguments_of_signal(events: Value, test: Value) -> Arguments:
                 return event.given()
     task = scheduler.at_work()
     asked = None if test is None else to_function(test)
-    return scheduler.wait(Wait(task, "events", wanted, wanted, asked))
+    arguments: Arguments = scheduler.wait(Wait(task, "events", wanted, wanted, asked))
+    return arguments
 
 
 def wait_for_events_values(events: Value, test: Value = None) -> Value:
