@@ -11,6 +11,7 @@ import sys
 
 HEADROOM = 20_000  # frames
 SHARE = 20  # the part of the limit that must be free before it is lowered again
+ROOM = 200  # frames: more than what is done whole has inside one another
 MOST = 3  # how often the limit is raised before it is lowered again
 
 
@@ -39,6 +40,13 @@ class Stack:
 
 
 STACK = Stack()
+
+
+def require_room() -> None:
+    """Raise RecursionError now, not amid what must be done whole, if the stack has little room left."""
+    limit = sys.getrecursionlimit()
+    sys.setrecursionlimit(limit - ROOM)  # Python refuses what is below the depth at hand
+    sys.setrecursionlimit(limit)
 
 
 def is_nearly_full() -> bool:

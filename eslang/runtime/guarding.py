@@ -7,6 +7,7 @@ and is forgotten when it has left.
 from __future__ import annotations
 
 from eslang.base.hints import TYPE_CHECKING, Callable
+from eslang.base.stack import require_room
 from eslang.base.symbols import Value
 from eslang.runtime import failures
 from eslang.runtime.tasks import ABORTED, Extent, Interrupt, Task
@@ -26,6 +27,7 @@ def run_guarded(
         if ended.status is not ABORTED and extent.live:
             scheduler.interrupt(task, Interrupt("guardian", action, extent, by=ended))
 
+    require_room()
     guard.on_end = alarm
     guard.seen = True
     scheduler.lives.start(guard, "guardian")

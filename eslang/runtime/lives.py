@@ -289,12 +289,19 @@ class Lives:
         """Abort OTHERS, and let TASK, the current one, wait until they have ended; nothing holds it up."""
         for other in others:
             self.abort(other, why)
+        crash: BaseException | None = None
         task.dynamic.held += 1
         try:
             for other in others:
-                self.await_end(task, other, LEAVING)
+                while other.status is None:
+                    try:
+                        self.await_end(task, other, LEAVING)
+                    except BaseException as another:  # what Python raised to leave everything
+                        crash = another
         finally:
             task.dynamic.held -= 1
+        if crash is not None:
+            raise crash
 
     def tell(self, kind: str, **told: Any) -> None:
         """Tell the listeners, if there are any, where the current task stands."""

@@ -7,6 +7,7 @@ have ended by then, their cleanups included.
 from __future__ import annotations
 
 from eslang.base.hints import TYPE_CHECKING, Callable
+from eslang.base.stack import require_room
 from eslang.runtime.events import Wait
 from eslang.runtime.lives import LEAVING
 from eslang.runtime.tasks import FAILED, SUCCEEDED, Task
@@ -32,6 +33,7 @@ class Net:
         """Start the members, and wait until all have ended."""
         lives = self.scheduler.lives
         task = self.scheduler.at_work()
+        require_room()
         self.left = len(self.members)
         for member in self.members:
             member.on_end = self.note_end

@@ -17,7 +17,7 @@ from eslang.runtime import failures
 from eslang.runtime.deadlock import deadlock, family, whom_to_tell
 from eslang.runtime.lives import passed_on
 from eslang.runtime.scheduler import Scheduler
-from eslang.runtime.tasks import ABORTED, ANYWHERE, FAILED, SUCCEEDED, Interrupt, Task
+from eslang.runtime.tasks import ABORTED, FAILED, SUCCEEDED, Interrupt, StandStill, Task
 
 
 class Runs:
@@ -179,4 +179,4 @@ class Runs:
         def fail() -> None:
             failures.signal(failure, continuable=False)
 
-        self.scheduler.interrupt(task, Interrupt("deadlock", fail, level=ANYWHERE, urgent=True))
+        self.scheduler.interrupt(task, Interrupt("deadlock", fail, StandStill(task), urgent=True))

@@ -35,6 +35,22 @@ class Extent:
         self.level = dynamic.held  # a cleanup that runs around the form does not hold the interrupt off
 
 
+class StandStill:
+    """What the interrupt of a deadlock belongs to: the wait that a task is in. Nothing holds it off."""
+
+    __slots__ = ("level", "task", "wait")
+
+    def __init__(self, task: Task) -> None:
+        self.level = ANYWHERE
+        self.task = task
+        self.wait = task.wait
+
+    @property
+    def live(self) -> bool:
+        """True while the task is in that wait."""
+        return self.wait is not None and self.task.wait is self.wait and not self.wait.done
+
+
 class Interrupt:
     """Something that a task is to do where it stands, at its next step."""
 
@@ -44,7 +60,7 @@ class Interrupt:
         self,
         kind: str,
         action: Callable[[], object],
-        extent: Extent | None = None,
+        extent: Extent | StandStill | None = None,
         *,
         level: int = 0,
         urgent: bool = False,

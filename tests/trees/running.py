@@ -41,16 +41,16 @@ class Run:
         self.outcome = ""
         self.too_long = False
         self.at: dict[int, Injection] = {}  # what is to happen between two steps, behind which event
-        self.at_note: dict[int, Injection] = {}  # what the running task is to do itself, at which note
+        self.at_note: dict[int, Injection] = {}  # what the running task is to do itself, before which note
 
     # --- what plans call -----------------------------------------------------------
 
     def note(self, *words: Any) -> None:
         """Leave a trace."""
-        self.notes.append(tuple(str(word) for word in words))
-        injection = self.at_note.get(len(self.notes))
+        injection = self.at_note.get(len(self.notes) + 1)
         if injection is not None:
             injection(self)
+        self.notes.append(tuple(str(word) for word in words))
 
     def through(self, function: Any) -> Any:
         """Call back."""
@@ -91,6 +91,7 @@ class Run:
 
     def _finish(self) -> None:
         with self.interp.door():
+            self.interp.scheduler.take_posts()
             self.interp.runs.finish()
 
     def _ended_by(self, work: Callable[[], Any]) -> None:
