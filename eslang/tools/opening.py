@@ -75,12 +75,14 @@ class Opened:
             raise Usage(f"`--clock` is `real` or `virtual`, not `{clock}`")
         seed = seed_of(chosen)
         self.tracer = tracer_of(chosen, clock, seed)
+        self.watch = watch_of(chosen)
+        self.outlet = Outlet(self.watch or (sys.stderr if chosen.value("trace") == "-" else sys.stdout))
         self.interp = Interpreter(
             seed=seed,
             clock=clock,
-            output=Outlet(sys.stderr if chosen.value("trace") == "-" else sys.stdout),
+            output=self.outlet,
             shuffle=chosen.has("shuffle"),
-            listeners=[self.tracer] if self.tracer is not None else [],
+            listeners=[each for each in (self.tracer, self.watch) if each is not None],
         )
         if listener is not None:
             self.interp.hooks.speakers.append(listener)
@@ -96,6 +98,27 @@ class Opened:
         self.interp.close()
         if self.tracer is not None:
             self.tracer.close(self.interp.clock.now())
+
+
+    def shown(self, work: Callable[[], object]) -> None:
+        """Do WORK; with `--watch`, show its tasks meanwhile."""
+        if self.watch is None:
+            work()
+        else:
+            self.watch.show(work, self.interp.clock.now)
+
+
+def watch_of(chosen: Chosen) -> Any:
+    """The live tree that CHOSEN asks for, on the terminal that is to be there."""
+    if not chosen.has("watch"):
+        return None
+    if chosen.value("trace") == "-":
+        raise Usage("standard output cannot be both watched and the trace")
+    if not sys.stdout.isatty() or os.environ.get("TERM", "dumb") == "dumb":
+        raise Usage("`--watch` needs a terminal; `--trace FILE` writes down what happens")
+    from eslang.tools.watching import Watch
+
+    return Watch(sys.stdout)
 
 
 def seed_of(chosen: Chosen) -> int:

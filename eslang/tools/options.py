@@ -69,6 +69,7 @@ SEED = Option("--seed", "N", "seed of all chance, a whole number (default 0); `r
 CLOCK = Option("--clock", "KIND", "`real` (default), or `virtual`: time jumps while all wait")
 QUIET = Option("-q --quiet", None, "print no trace lines")
 TRACE = Option("--trace", "FILE", "write the events of the run to FILE (see `esl trace`)")
+WATCH = Option("--watch", None, "keep a live tree of the tasks at the bottom of the terminal")
 SHUFFLE = Option("--shuffle", None, "let ready tasks take turns in an order drawn from the seed")
 LIMIT = Option("--time-limit", "S", "end the run after S seconds of wall time (exit 124)")
 SCENARIO = Option("--scenario", "FILE", "what the world does, and when (not available yet)")
@@ -96,7 +97,7 @@ COMMANDS = {
             "run",
             "[options] FILE... | -e FORM",
             "run plans",
-            (EVAL, *_RUN, HELP),
+            (EVAL, *_RUN, WATCH, HELP),
             "Loads each FILE (`-` is standard input), then calls the function MAIN if one of them\n"
             "defined it. With -e, evaluates the forms after loading, and does not call MAIN.\n"
             "Trace lines and results go to standard output, diagnostics to standard error.",
