@@ -1,8 +1,8 @@
 """Deadlock: nothing runs, and nothing can wake anything.
 
 The report names every task, what it waits for, where, and who could have
-ended that wait. It is the argument of the failure :deadlock, as lists, and
-for people it is laid out by the tools.
+ended that wait. Its parts are the arguments of the failure :deadlock, a list
+for each task, and for people it is laid out by the tools.
 """
 
 from __future__ import annotations
@@ -45,10 +45,15 @@ def deadlock(tasks: Iterable[Task]) -> Failure:
     """The failure of TASKS, all of which wait for ever."""
     alive = list(tasks)
     report = Deadlock(tuple([waiting(task, alive) for task in alive if task.wait is not None]))
-    arguments = [lisp_list(String(each.task), String(each.what)) for each in report.waiting]
-    failure = Failure(DEADLOCK, *arguments)
+    failure = Failure(DEADLOCK, *[as_list(each) for each in report.waiting])
     failure.report = report
     return failure
+
+
+def as_list(waiting: Waiting) -> Value:
+    """WAITING as plans have it: the task, what it waits for, and why that does not come, if that is known."""
+    texts = [waiting.task, waiting.what, *([waiting.why] if waiting.why else [])]
+    return lisp_list(*map(String, texts))
 
 
 def family(roots: Iterable[Task]) -> list[Task]:
@@ -142,6 +147,8 @@ def why_no_checkpoint(task: Task, key: Value) -> tuple[str, str]:
 
 def why_no_signal(events: Iterable[Event], alive: list[Task]) -> tuple[str, str]:
     """Why none of EVENTS is signalled; and what would help."""
+    if not events:
+        return "nothing can end such a wait", "let the list hold an event"
     names = [event.name for event in events if event.name is not None]
     could = [task.name for task in alive if any(promises(task, "signal", name) for name in names)]
     form = f"(signal {shown(names[0]) if names else 'event'})"

@@ -19,7 +19,7 @@ def test_ids_are_the_same_if_they_are_equal() -> None:
 def test_strings_of_other_case_are_other_ids() -> None:
     came = run('(task-net (a (checkpoint "Hall")) (b (checkpoint-wait a "hall")))')
     assert failure_text(came.failure) == (
-        ':DEADLOCK ("main" "the end of b") ("b" "checkpoint \\"hall\\" of a")'
+        ':DEADLOCK ("main" "the end of b") ("b" "checkpoint \\"hall\\" of a" "a has ended without it")'
     )
 
 

@@ -167,5 +167,6 @@ def test_a_guardian_may_be_a_net_of_its_own() -> None:
 def test_a_guarded_task_may_be_deadlocked_with_its_guardian() -> None:
     came = run("(with-guardian (wait-for-events (make-event 'alarm)) (fail :guarded) (wait-until nil))")
     assert failure_text(came.failure) == (
-        ':DEADLOCK ("main" "the condition nil") ("wait-for-events" "event alarm")'
+        ':DEADLOCK ("main" "the condition nil")'
+        ' ("wait-for-events" "event alarm" "no task that is left signals it by name")'
     )
