@@ -70,7 +70,19 @@ class Event(Datum):
 class Wait:
     """One task's wait: what for, and whether it is over."""
 
-    __slots__ = ("done", "events", "kind", "of", "offers", "outside", "result", "several", "task", "test")
+    __slots__ = (
+        "done",
+        "events",
+        "kind",
+        "of",
+        "offers",
+        "outside",
+        "plain",
+        "result",
+        "several",
+        "task",
+        "test",
+    )
 
     def __init__(
         self,
@@ -88,6 +100,7 @@ class Wait:
         self.done = False
         self.result: Any = None
         self.several = len(events) > 1
+        self.plain = not self.several and test is None  # any signal of its event ends it, and that is all
         self.outside = False  # its condition reads what may change by itself
         if test is not None:
             self.offers: list[Arguments] = []
@@ -98,7 +111,10 @@ class Wait:
         """Let this, which is over, be a wait for EVENT: that is cheaper than a new one."""
         self.done = False
         self.of = self.events = (event,)
-        event.expect(self)
+        if event.waits is None:
+            event.waits = self
+        else:
+            event.expect(self)
 
     def end(self, result: Any) -> None:
         """It is over, with RESULT."""

@@ -20,9 +20,11 @@ from eslang.base.calls import depth
 from eslang.base.control import Stop
 from eslang.base.failure import control_error
 from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable
+from eslang.base.stack import require_room
 from eslang.runtime import failures
 from eslang.runtime.bindings import Bindings
 from eslang.runtime.events import Arguments, Event, Wait
+from eslang.runtime.idling import idle, rest
 from eslang.runtime.lives import Lives
 from eslang.runtime.story import place_here
 from eslang.runtime.tasks import Interrupt, Task
@@ -34,7 +36,6 @@ if TYPE_CHECKING:
 
 TURNS = 64  # hand-overs from task to task before the driver looks at clock and posts
 CONDITION = "condition"  # the kind of a wait that looks at its test again whenever something was done
-POLL = 0.02  # seconds between two looks at a condition that reads what no task changes
 
 
 class Scheduler:
@@ -57,7 +58,7 @@ class Scheduler:
         self.is_open = False  # anything may come from outside
         self.end_deadlock: Callable[[], None] = lambda: None
         self.end_run: Callable[[Stop], None] = lambda stop: None
-        self.rest: Callable[[float | None], None] = self._rest
+        self.rest: Callable[[float | None], None] = lambda seconds: rest(self, seconds)
         self.between: Callable[[], None] | None = None  # what else the driver sees to, between two rounds
         self.rouse: Callable[[], None] | None = None  # what tells whoever rests that something was posted
         self.lives = Lives(self)
@@ -88,12 +89,16 @@ class Scheduler:
         ready = self.ready
         if task.switch is None:
             self._drive_for(task)
-        elif ready and self.turns and ready[0].switch is not None:
+        elif self.turns and ready and (switch := ready[0].switch) is not None:
             self.turns -= 1
-            ready.popleft().switch()  # which is a task's stack; it may be the one at hand
+            ready.popleft()
+            switch()  # to another task's stack, or to the one at hand
         else:
             self.current = None
-            self.driver.switch()  # type: ignore[union-attr]
+            try:
+                self.driver.switch()  # type: ignore[union-attr]
+            finally:  # the stack may be full
+                self.current = task
         self.current = task  # as `enter` does, which would be one call more
         task.queued = False
         self.session.dynamic = task.dynamic
@@ -112,6 +117,7 @@ class Scheduler:
 
     def _take_off(self, task: Task) -> None:
         """Let none of the dynamic bindings of TASK, and of its calls through C, be in force."""
+        require_room()
         task.kept = self.bindings.take_off(), depth[0]
         depth[0] = 0
 
@@ -124,6 +130,7 @@ class Scheduler:
 
     def _drive_for(self, task: Task) -> None:
         """Drive until it is the turn of TASK, which runs on the driver's stack."""
+        require_room()
         self.current = None
         try:
             self.drive(task)
@@ -147,7 +154,7 @@ class Scheduler:
             if timers and timers.fire(self.session.clock.now()):
                 continue
             if not ready:
-                self._idle()
+                idle(self)
                 continue
             turns = 0 if self.shuffled or self.watching else TURNS
             self.granted += 1 + turns - self.turns
@@ -277,15 +284,34 @@ class Scheduler:
 
     def wait_for(self, event: Event) -> Arguments:
         """Wait until EVENT is signalled; what came with the signal. It is the commonest of waits."""
-        task = self.at_work()
-        wait, task.spare = task.spare, None
+        task = self.current or self.at_work()
+        wait = task.spare
         if wait is None:
             wait = Wait(task, "events", (event,), (event,))
         else:
             wait.again(event)
+        task.spare = None
         arguments: Arguments = self.wait(wait)
         task.spare = wait
         return arguments
+
+    def signal(self, event: Event, arguments: Arguments) -> Iterable[Wait]:
+        """Signal EVENT: end all waits for it, and let their tasks go on; those waits."""
+        wait = event.waits
+        if wait is None:
+            return ()
+        if not isinstance(wait, Wait) or not wait.plain:
+            waits = event.signal(arguments)
+            self.wake(waits)
+            return waits
+        event.waits = None  # the rest is the same for one plain wait, in a third of the time
+        wait.done = True
+        wait.result = arguments
+        task = wait.task
+        if task.wait is wait and not task.queued and task is not self.current:
+            task.queued = True
+            self.ready.append(task)
+        return (wait,)
 
     def attend(self, task: Task) -> bool:
         """Do what interrupts ask of TASK, the current one, if nothing holds them off; true if any did."""
@@ -369,32 +395,6 @@ class Scheduler:
         """See to a pending stop: the run is to end with it."""
         stop = self.ticks.take()
         if stop is not None:
+            self.lives.tell("run-stopped", reason=stop.reason, code=stop.code)
             self.end_run(stop)
         return stop
-
-    def _idle(self) -> None:
-        """Nobody is ready: let time pass until a timer is due, or something comes from outside."""
-        moment = self.timers.next_moment()
-        clock = self.session.clock
-        if clock.is_virtual and moment is not None and not self.outside:
-            clock.advance(moment)
-            return
-        pause = None if moment is None else max(0.0, moment - clock.now())
-        if not clock.is_virtual and any(wait.outside and not wait.done for wait in self.watching):
-            self.rest(POLL if pause is None else min(POLL, pause))
-            self.looked = -1
-            self.look_again()
-        elif self.outside or self.is_open or pause is not None:
-            self.rest(pause)
-        else:
-            self.end_deadlock()
-
-    def _rest(self, seconds: float | None) -> None:
-        """Sleep until something is posted, or for SECONDS."""
-        from _queue import Empty
-
-        try:
-            action = self.posted.get(timeout=seconds) if seconds is not None else self.posted.get()
-        except Empty:
-            return
-        action()

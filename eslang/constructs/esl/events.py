@@ -122,12 +122,11 @@ def signal_event(event: Value, *arguments: Value) -> Value:
     if not isinstance(event, Event):
         raise type_error(event, EVENT, SIGNAL)
     scheduler = running.session.scheduler
-    waits = event.signal(arguments)
+    waits = scheduler.signal(event, arguments)
     if scheduler.session.hooks.listeners:
         scheduler.lives.tell(
             "signal", event=event, arguments=from_items(list(arguments)), wakes=[wait.task for wait in waits]
         )
-    scheduler.wake(waits)
     return None
 
 
