@@ -151,7 +151,10 @@ class Guest:
         lives, runs = self.scheduler.lives, self.session.runs
         ended: Future[BaseException | None] = get_running_loop().create_future()
 
+        note_end = self.session.outside.note_call()
+
         def settle(task: Task) -> None:
+            note_end()
             crash: BaseException | None
             crash, lives.crash = lives.crash, None
             if runs.stopped is not None:

@@ -370,9 +370,9 @@ class Interpreter:
                 self.runs.abort_all()
         finally:
             self.closed = True
-            self.runs.lives.drop_spare()
             if self._outside is not None:
                 self._outside.close()
+            self.runs.let_go()
 
     async def close_async(self) -> None:
         """The same within the running asyncio loop, which goes on meanwhile."""

@@ -10,6 +10,8 @@ call cannot be called off: it is left alone, and its outcome is dropped.
 
 from __future__ import annotations
 
+from contextvars import ContextVar, copy_context
+
 from eslang.base.border import enter
 from eslang.base.errors import python_failure
 from eslang.base.failure import Failure, control_error
@@ -29,7 +31,7 @@ EVERY = 8  # rounds of a busy driver between two looks at our own loop
 class Operation:
     """A coroutine or a blocking call, and the wait of a task for it."""
 
-    __slots__ = ("called_off", "error", "loop", "over", "value", "wait", "work")
+    __slots__ = ("asks", "called_off", "error", "loop", "over", "value", "wait", "work")
 
     def __init__(self, task: Task, name: str, loop: Any = None) -> None:
         self.wait = Wait(task, "outside", f"the primitive {name.lower()}")
@@ -38,7 +40,11 @@ class Operation:
         self.value: Any = None
         self.error: BaseException | None = None
         self.over = False
+        self.asks = 0  # calls of the plan that it awaits in turn
         self.called_off = False  # its task does not wait for the outcome any more
+
+
+SERVED: ContextVar[Operation | None] = ContextVar("served", default=None)  # the one that a coroutine is of
 
 
 class Outside:
@@ -75,6 +81,7 @@ class Outside:
         import asyncio
 
         async def follow() -> None:
+            SERVED.set(operation)
             try:
                 operation.value = await coroutine
             except BaseException as error:
@@ -91,7 +98,6 @@ class Outside:
 
     def await_blocking(self, function: Any, given: list[Any], keywords: dict[str, Any], name: str) -> Any:
         """What FUNCTION, of the primitive NAME, gives, run in a thread; the current task waits for it."""
-        from contextvars import copy_context
         from threading import Thread
 
         operation = Operation(self.scheduler.at_work(), name)
@@ -111,7 +117,8 @@ class Outside:
     def _end(self, operation: Operation) -> None:
         """OPERATION has ended; its task is to know. Called in any thread."""
         operation.over = True
-        self.scheduler.post(lambda: self.scheduler.end_wait(operation.wait, None))
+        if not self.session.closed:
+            self.scheduler.post(lambda: self.scheduler.end_wait(operation.wait, None))
 
     def _outcome(self, operation: Operation) -> Any:
         """Wait for OPERATION, in the current task; what it gives, or raises."""
@@ -123,7 +130,7 @@ class Outside:
             self._call_off(operation)
             raise
         finally:
-            self.scheduler.outside -= 1
+            self.scheduler.outside -= not operation.asks
             del self.operations[operation]
         if operation.loop is None:
             operation.work.join()  # it has nothing left to do
@@ -160,6 +167,23 @@ class Outside:
             enter(error)
         failure = error if isinstance(error, Failure) else python_failure(error)
         self.session.hooks.tell("failure", None, failure=failure)
+
+    def note_call(self) -> Callable[[], None]:
+        """A coroutine calls the plan; what is to be called when that has ended.
+
+        If the plan awaits that coroutine, it is not the outside that time waits for meanwhile.
+        """
+        operation = SERVED.get()
+        if operation is None or operation not in self.operations:
+            return lambda: None
+
+        def count(calls: int) -> None:
+            before, operation.asks = operation.asks, operation.asks + calls
+            if operation in self.operations:
+                self.scheduler.outside += (not operation.asks) - (not before)
+
+        count(1)
+        return lambda: count(-1)
 
     # --- loops -------------------------------------------------------------------
 

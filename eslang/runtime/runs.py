@@ -144,6 +144,12 @@ class Runs:
             self.lives.abort(task, "run")
         self.drive_until(lambda: not self.lives.tops)
 
+    def let_go(self) -> None:
+        """Let go of what is kept for tasks to come: nothing comes any more."""
+        self.lives.drop_spare()
+        while not self.scheduler.posted.empty():
+            self.scheduler.posted.get()
+
     def drive_until(self, done: Callable[[], bool]) -> None:
         """Let tasks run, outside of any, until DONE. Raises Stop if they were stopped, and have all ended."""
         scheduler = self.scheduler
@@ -160,7 +166,6 @@ class Runs:
 
     def stop(self, stop: Stop) -> None:
         """Let the root end with STOP; where there is none, all that belongs to the run."""
-        self.lives.tell("run-stopped", reason=stop.reason, code=stop.code)
         if self.root is not None:
             self.root.ending = stop
             self.scheduler.make_ready(self.root)
