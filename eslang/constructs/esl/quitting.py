@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from eslang.base.control import Stop
 from eslang.base.failure import type_error
+from eslang.base.running import running
 from eslang.base.symbols import Value
 from eslang.compile.registry import ESL, function
 
@@ -22,4 +23,5 @@ def quit_run(code: Value = 0) -> Value:
     """
     if code.__class__ is not int or not 0 <= code <= 255:
         raise type_error(code, "UNSIGNED-BYTE", "quit")
+    running.session.scheduler.lives.tell("run-stopped", reason="quit", code=code)
     raise Stop("quit", code)
