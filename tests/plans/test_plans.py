@@ -30,10 +30,11 @@ def expected(plan: Path) -> str:
 
 @every_plan
 @pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 1996))])
+@pytest.mark.parametrize("order", [[], ["--shuffle"]], ids=["in-turn", "shuffled"])
 def test_a_plan_prints_what_stands_beside_it(
-    plan: Path, seed: int, capsys: pytest.CaptureFixture[str]
+    plan: Path, seed: int, order: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    code = main(["run", "--clock", "virtual", "--seed", str(seed), str(plan)])
+    code = main(["run", "--clock", "virtual", "--seed", str(seed), *order, str(plan)])
     printed = capsys.readouterr()
     assert printed.out == expected(plan)
     assert (code, printed.err) == (0, "")
@@ -43,7 +44,7 @@ def test_a_plan_prints_what_stands_beside_it(
 @every_plan
 def test_a_plan_prints_the_same_from_the_command(plan: Path) -> None:
     done = subprocess.run(
-        [sys.executable, "-m", "eslang", "run", plan.relative_to(ROOT).as_posix()],
+        [sys.executable, "-m", "eslang", "run", "--clock", "virtual", plan.relative_to(ROOT).as_posix()],
         cwd=ROOT,
         env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONWARNINGS": "error"},
         capture_output=True,
