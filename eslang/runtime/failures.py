@@ -159,9 +159,7 @@ def answer(failure: Failure, continuable: bool) -> Value:
                 _offer(session, form, index, failure)
                 continue
             used = form.used[index]
-            if used == limit or (
-                cause is not failure.cause and not session.causes.answers(cause, failure.cause)
-            ):
+            if used == limit or not (cause is failure.cause or session.causes.answers(cause, failure.cause)):
                 continue
             form.used[index] = used + 1
             if hooks.listeners or hooks.speakers:
@@ -243,7 +241,7 @@ def run_form(
     """Run BODY while PROCEDURES, one for each of CLAUSES, answer its failures; again after each (retry)."""
     session = running.session
     dynamic: Dynamic = session.dynamic
-    rounds: Iterator[None] = session.ticks.source
+    rounds: Iterator[None] | None = None
     outer = form.outer = dynamic.forms
     form.logical = dynamic.logical
     form.clauses = clauses
@@ -255,6 +253,8 @@ def run_form(
             dynamic.forms = form
             try:
                 try:
+                    if rounds is not None:
+                        next(rounds)  # a retry counts as the round of a loop; an interrupt may come here
                     return body()
                 except Exception as error:
                     return signal_error(error)
@@ -267,7 +267,7 @@ def run_form(
                 if jump.target is not form:
                     raise
                 return jump.value
-            next(rounds)  # a retry counts as the round of a loop
+            rounds = session.ticks.source
     finally:
         form.live = False
         dynamic.forms = outer

@@ -52,3 +52,18 @@ def test_a_task_begins_with_a_copy_of_the_bindings_in_force() -> None:
 def test_a_jump_out_of_a_task_is_its_failure() -> None:
     came = run("(block nil (task-net (a (return 1))))")
     assert str(came.failure.cause) == ":CONTROL-ERROR"
+
+
+def test_an_interrupt_may_ask_for_a_retry_where_a_retry_ends_the_time_slice() -> None:
+    text = """
+    (let* ((answered 0) (never (make-event))
+           (sleeper (spawn (with-recovery-procedures ((:nudged :retries :infinite (incf answered) (retry)))
+                             (wait-for-events never)))))
+      (yield)
+      (dotimes (round 2500)
+        (interrupt-task sleeper (lambda () (fail :nudged)))
+        (yield))
+      (print answered)
+      (abort-task sleeper))
+    """
+    assert lines_of(text)[-1] == "2500"
