@@ -7,6 +7,7 @@ top level belongs to the run, and is there when other roots come and go.
 
 from __future__ import annotations
 
+import sys
 from _thread import allocate_lock, get_ident
 
 from eslang.base.control import EndTask, Stop
@@ -18,6 +19,13 @@ from eslang.runtime.deadlock import deadlock, family, whom_to_tell
 from eslang.runtime.lives import passed_on
 from eslang.runtime.scheduler import Scheduler
 from eslang.runtime.tasks import ABORTED, FAILED, SUCCEEDED, Interrupt, StandStill, Task
+
+
+def stack_here() -> Any:
+    """The stack at hand, a greenlet; None if it is the thread's own."""
+    greenlet = sys.modules.get("greenlet")
+    here = None if greenlet is None else greenlet.getcurrent()
+    return None if here is None or here.parent is None else here
 
 
 class Runs:
@@ -34,6 +42,7 @@ class Runs:
         self.stopped: Stop | None = None  # what the run is to end with, once all has been aborted
         self.gate = allocate_lock()  # held while anything of this is on a stack, from outside in
         self._ident = get_ident()
+        self._stack: Any = None  # that of the root
 
     def run(self, body: Callable[[], Value]) -> Value:
         """Run BODY to its end, as a root or within the task that calls. Raises Failure, Stop."""
@@ -55,6 +64,7 @@ class Runs:
         came = not scheduler.posted.empty()
         if came:
             scheduler.take_posts()
+        self._stack = stack_here()
         root = self.root = self.lives.create(name, body)
         self.lives.count += 1
         root.is_root = root.seen = True
@@ -90,7 +100,9 @@ class Runs:
     def is_inside(self) -> bool:
         """True if the stack at hand is that of a task of this interpreter, whose turn it is."""
         current = self.scheduler.current
-        return current is not None and get_ident() == self._ident and self.scheduler.is_on_stack(current)
+        if current is None or get_ident() != self._ident:
+            return False
+        return stack_here() is self._stack if current is self.root else self.scheduler.is_on_stack(current)
 
     def begin(self) -> None:
         """Let the stack at hand be where this is at work, until the gate is released."""
@@ -128,6 +140,7 @@ class Runs:
 
     def finish(self) -> None:
         """Let the run end: wait for what was spawned, and abort the daemons. Raises a failure nobody saw."""
+        self.check_outside()
         self.drive_until(lambda: all(task.daemon for task in self.lives.tops))
         self.abort_all()
         self.raise_unseen()
@@ -166,9 +179,13 @@ class Runs:
 
     def stop(self, stop: Stop) -> None:
         """Let the root end with STOP; where there is none, all that belongs to the run."""
-        if self.root is not None:
-            self.root.ending = stop
-            self.scheduler.make_ready(self.root)
+        root, scheduler = self.root, self.scheduler
+        if root is not None:
+            root.ending = stop
+            scheduler.make_ready(root)
+            if root.queued:  # its turn is the next: the others might not come to the end of theirs
+                scheduler.ready.remove(root)
+                scheduler.ready.appendleft(root)
         else:
             self.stopped = stop
             for task in list(self.lives.tops):

@@ -13,6 +13,7 @@ import sys
 from itertools import chain, repeat
 from types import FrameType
 
+from eslang.base.calls import reenter
 from eslang.base.control import Stop
 from eslang.base.hints import Any, Callable, Iterable, Iterator
 
@@ -42,7 +43,7 @@ class Ticks:
 
     def _pass(self) -> None:
         self.source = self.make()  # these ticks are being drawn from, and may not be from elsewhere
-        self.safepoint()
+        reenter(self.safepoint, ())  # from C, and an interrupt taken there may come to a safepoint too
 
     def stop(self, stop: Stop) -> None:
         """Let the run end, soon; safe to call from a signal handler."""
