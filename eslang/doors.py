@@ -42,7 +42,7 @@ class Door(AtWork):
     def __enter__(self) -> None:
         AtWork.__enter__(self)
         self.keys: CtrlC | None = None
-        if not self.interpreter.runs.gate.locked():
+        if not self.interpreter.runs.gate.is_closed():
             self.keys = CtrlC(self.interpreter.interrupt).__enter__()
 
     def __exit__(self, *error: object) -> None:

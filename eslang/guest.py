@@ -88,7 +88,7 @@ class Guest:
         """Give out turns for a while."""
         runs, scheduler = self.session.runs, self.scheduler
         self._roused = False
-        if self.loop is None or runs.gate.locked():
+        if self.loop is None or runs.gate.is_closed():
             return  # whoever is at work rouses this when that is over
         if self._next is not None:
             self._next.cancel()
@@ -102,7 +102,7 @@ class Guest:
         finally:
             scheduler.rest, scheduler.between, scheduler.is_open = before
             scheduler.calm_down()
-            runs.gate.release()
+            runs.gate.open()
             self._look_ahead()
 
     def _count(self) -> None:

@@ -229,7 +229,7 @@ class Outside:
         loop, session = get_running_loop(), self.session
         if session.closed:
             raise Failure("interpreter-closed")
-        if not session.runs.gate.locked():
+        if not session.runs.gate.is_closed():
             session.runs.check_outside()
         elif session.scheduler.current is not None or not self.is_own(loop):
             raise control_error(session.runs.obstacle())

@@ -7,25 +7,17 @@ top level belongs to the run, and is there when other roots come and go.
 
 from __future__ import annotations
 
-import sys
-from _thread import allocate_lock, get_ident
-
 from eslang.base.control import EndTask, Stop
 from eslang.base.failure import Failure, control_error
 from eslang.base.hints import Any, Callable
 from eslang.base.symbols import Keyword, Value
 from eslang.runtime import failures
 from eslang.runtime.deadlock import deadlock, family, whom_to_tell
+from eslang.runtime.gate import Gate, stack_here
 from eslang.runtime.lives import passed_on
 from eslang.runtime.scheduler import Scheduler
 from eslang.runtime.tasks import ABORTED, FAILED, SUCCEEDED, Interrupt, StandStill, Task
-
-
-def stack_here() -> Any:
-    """The stack at hand, a greenlet; None if it is the thread's own."""
-    greenlet = sys.modules.get("greenlet")
-    here = None if greenlet is None else greenlet.getcurrent()
-    return None if here is None or here.parent is None else here
+from eslang.runtime.timers import Timers
 
 
 class Runs:
@@ -40,8 +32,7 @@ class Runs:
         self.scheduler.is_open = is_open
         self.root: Task | None = None
         self.stopped: Stop | None = None  # what the run is to end with, once all has been aborted
-        self.gate = allocate_lock()  # held while anything of this is on a stack, from outside in
-        self._ident = get_ident()
+        self.gate = Gate()
         self._stack: Any = None  # that of the root
 
     def run(self, body: Callable[[], Value]) -> Value:
@@ -56,7 +47,7 @@ class Runs:
         try:
             return self._as_root(body, name)
         finally:
-            self.gate.release()
+            self.gate.open()
 
     def _as_root(self, body: Callable[[], Any], name: str) -> Any:
         """What BODY gives, run as a root. What was posted before it begins is done before."""
@@ -100,33 +91,46 @@ class Runs:
     def is_inside(self) -> bool:
         """True if the stack at hand is that of a task of this interpreter, whose turn it is."""
         current = self.scheduler.current
-        if current is None or get_ident() != self._ident:
+        if current is None or not self.gate.is_here():
             return False
         return stack_here() is self._stack if current is self.root else self.scheduler.is_on_stack(current)
 
     def begin(self) -> None:
-        """Let the stack at hand be where this is at work, until the gate is released."""
-        if not self.gate.acquire(False):
+        """Let the stack at hand be where this is at work, until the gate is opened."""
+        gate = self.gate
+        if not gate.close():
             raise control_error(self.obstacle())
-        if get_ident() == self._ident:
+        if gate.is_here():
             return
-        if self.lives.count:
-            self.gate.release()
+        if gate.is_homeless():
+            self._forget_all()
+        elif self.lives.count:
+            gate.open()
             raise control_error(
                 "the tasks of this interpreter live in another thread; signal them from there"
             )
-        self._ident = get_ident()
+        gate.move_here()
         self.scheduler.driver = None
         self.lives.forget_spare()
+
+    def _forget_all(self) -> None:
+        """Forget the tasks: their stacks have gone with their thread."""
+        for task in family(self.lives.tops):
+            task.status = ABORTED
+        self.lives.tops.clear()
+        self.lives.count = self.scheduler.outside = 0
+        self.scheduler.ready.clear()
+        self.scheduler.watching.clear()
+        self.scheduler.timers = Timers()
 
     def check_outside(self) -> None:
         """Refuse what cannot be done from within, nor in another thread than that of the tasks."""
         self.begin()
-        self.gate.release()
+        self.gate.open()
 
     def obstacle(self) -> str:
         """Why this cannot be entered, now that it is at work."""
-        if get_ident() != self._ident:
+        if not self.gate.is_here():
             return "this interpreter is at work in another thread; signal it from there"
         if self.is_inside():
             return "this cannot be done from within a task of the interpreter"
@@ -172,7 +176,7 @@ class Runs:
                 scheduler.drive(done=lambda: done() if self.stopped is None else not self.lives.tops)
             finally:
                 scheduler.calm_down()
-                self.gate.release()
+                self.gate.open()
         if self.stopped is not None:
             stop, self.stopped = self.stopped, None
             raise stop
