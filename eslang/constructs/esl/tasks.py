@@ -17,6 +17,11 @@ from eslang.runtime.tasks import READY, RUNNING, WAITING, Interrupt, Task
 
 LAMBDA, QUOTE = (Symbol.intern(name, CL) for name in ("LAMBDA", "QUOTE"))
 SPAWN, MASK, TASK = (Symbol.intern(name, ESL) for name in ("%SPAWN", "%CALL-WITHOUT-INTERRUPTS", "TASK"))
+PROGN = Symbol.intern("PROGN", CL)
+STRUCTURE = frozenset(  # operators that a task is not called by
+    Symbol.intern(name, CL)
+    for name in ["PROG1", "LET", "LET*", "FLET", "LABELS", "BLOCK", "IF", "WHEN", "UNLESS", "COND"]
+)
 SIGNALLING = {
     Symbol.intern(name, ESL): name.split("-")[0].lower() for name in ("CHECKPOINT", "SIGNAL", "SIGNAL-EVENT")
 }
@@ -48,8 +53,10 @@ def closure(*forms: Value) -> Value:
 
 
 def name_of_form(form: Value) -> Value:
-    """What a task that runs FORM is called, as a form: its operator."""
-    named = form.__class__ is Cons and isinstance(form.car, Symbol)
+    """What a task that runs FORM is called, as a form: its operator, or what that begins with."""
+    while form.__class__ is Cons and form.car is PROGN and form.cdr.__class__ is Cons:
+        form = form.cdr.car
+    named = form.__class__ is Cons and isinstance(form.car, Symbol) and form.car not in STRUCTURE
     return lisp_list(QUOTE, form.car if named else TASK)
 
 

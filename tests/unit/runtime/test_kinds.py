@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
+from unit.tools.traced import EVERY_KIND, RESCUE, told
+
 from architecture.sources import MODULES
 from eslang import Failure, Keyword
 from eslang.runtime.events import Event
@@ -12,7 +14,6 @@ from eslang.runtime.hooks import SPOKEN
 from eslang.runtime.kinds import KINDS, TABLE
 from eslang.runtime.story import Place
 from eslang.runtime.tasks import Task
-from unit.tools.traced import EVERY_KIND, RESCUE, told
 
 CLASSES = {
     "Task": Task,
@@ -105,7 +106,7 @@ def test_how_a_wait_ended_is_told() -> None:
 def test_who_aborts_whom_is_told() -> None:
     heard = told("(or-parallel (progn (sleep 5) 1) (progn (sleep 2) 2))")
     abort = next(event for event in heard if event.kind == "abort")
-    assert (abort.data["of"].name, abort.data["why"], abort.data["by"].name) == ("progn", "net", "progn.2")
+    assert (abort.data["of"].name, abort.data["why"], abort.data["by"].name) == ("sleep", "net", "sleep.2")
 
 
 def test_an_interrupt_tells_whom_it_comes_from() -> None:
