@@ -1,0 +1,84 @@
+"""Why a query takes the time it takes: its plan, as data."""
+
+from __future__ import annotations
+
+from eslang.base.hints import NamedTuple
+from eslang.base.symbols import Symbol, Value
+from eslang.facts.functions import Question
+from eslang.facts.goals import Constants, form_of
+from eslang.facts.procs import Proc, reached_from
+from eslang.facts.relations import Positions, Relation
+from eslang.facts.steps import Absent, Look, Step, Steps, Test
+
+CHECK, LOOK_UP, SCAN, RULES, TEST, NOT, OR = "check", "look-up", "scan", "rules", "test", "not", "or"
+PLAIN, WALKED, TABLED = "plain", "walked", "tabled"
+
+
+class Explained(NamedTuple):
+    """One step: what it does for which goal."""
+
+    kind: str  # one of the words above
+    goal: Value
+    positions: Positions  # of the arguments that are known, counted from 0
+    facts: int  # that the relation holds now
+    inner: tuple[tuple[Explained, ...], ...]  # the ways of NOT and OR
+
+
+class ExplainedRules(NamedTuple):
+    """The rules of one relation, when some of its arguments are known."""
+
+    name: Symbol
+    arity: int
+    positions: Positions
+    kind: str  # plain: they do not need themselves; walked: only as their tail; tabled
+    rules: tuple[tuple[Value, tuple[Explained, ...]], ...]  # the head and the steps of each
+
+
+class Explanation(NamedTuple):
+    """The steps of a query in the order in which they are taken, the rules it asks, and the indexes."""
+
+    steps: tuple[Explained, ...]
+    rules: tuple[ExplainedRules, ...]
+    indexes: tuple[tuple[Symbol, int, Positions], ...]  # all that the relations in question have
+
+
+def explain(question: Question, constants: Constants) -> Explanation:
+    """How QUESTION is answered for these CONSTANTS."""
+    known = [*constants, *question.constants[question.places :]]
+    procs = reached_from(question.steps)
+    relations: dict[Relation, None] = {}
+    steps = _all(question.steps, known, relations)
+    rules = tuple(_rules(proc, known, relations) for proc in procs)
+    indexes = tuple(
+        (relation.name, relation.arity, index.positions)
+        for relation in relations
+        for index in relation.indexes
+    )
+    return Explanation(steps, rules, indexes)
+
+
+def _rules(proc: Proc, constants: Constants, relations: dict[Relation, None]) -> ExplainedRules:
+    kind = WALKED if proc.is_linear() else TABLED if proc.circle else PLAIN
+    relations[proc.relation] = None
+    rules = tuple(
+        (form_of(clause.head, constants), _all(clause.steps, constants, relations)) for clause in proc.clauses
+    )
+    return ExplainedRules(proc.relation.name, proc.relation.arity, proc.positions, kind, rules)
+
+
+def _all(steps: Steps, constants: Constants, relations: dict[Relation, None]) -> tuple[Explained, ...]:
+    return tuple(_one(step, constants, relations) for step in steps)
+
+
+def _one(step: Step, constants: Constants, relations: dict[Relation, None]) -> Explained:
+    if isinstance(step, Look):
+        relation = step.relation
+        relations[relation] = None
+        whole = len(step.positions) == relation.arity
+        kind = RULES if step.proc else CHECK if whole else LOOK_UP if step.positions else SCAN
+        return Explained(kind, form_of(step.atom, constants), step.positions, len(relation.rows), ())
+    if isinstance(step, Test):
+        return Explained(TEST, form_of(step.atom, constants), (), 0, ())
+    inner = (step.steps,) if isinstance(step, Absent) else step.ways
+    ways = tuple(_all(way, constants, relations) for way in inner)
+    return Explained(NOT if isinstance(step, Absent) else OR, form_of(step.goal, constants), (), 0, ways)

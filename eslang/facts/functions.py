@@ -1,0 +1,244 @@
+"""The functions that answer a query, and those of the rules that it needs.
+
+A query has up to three: one gives all answers, one the first, and one is a
+generator that gives them one at a time. The rules' procs are generators, too,
+but for those that need their own answers: these fill tables.
+"""
+
+from __future__ import annotations
+
+from eslang.base.hints import Any, Callable, NamedTuple
+from eslang.base.symbols import Symbol
+from eslang.facts.goals import Constants
+from eslang.facts.procs import Clause, Proc, reached_from
+from eslang.facts.relations import EMPTY, Access
+from eslang.facts.source import (
+    TABLE_NAMES,
+    TABLE_OPENING,
+    Body,
+    Scope,
+    Sink,
+    Source,
+    tuple_of,
+)
+from eslang.facts.steps import Look, Steps
+from eslang.facts.tables import Tables
+from eslang.facts.terms import DIRECT, value_of
+
+ALL, FIRST, LAZY = "all", "first", "lazy"
+GENERATES = ("yield from ()",)  # makes a function a generator, whatever else stands in it
+FOLLOW = ("yield from {}",)
+FACTORY = "def make(readers, call, EMPTY, DIRECT, value_of, Tables, constants, objects):"
+
+
+class Question(NamedTuple):
+    """A planned query."""
+
+    steps: Steps
+    variables: tuple[Symbol, ...]  # what a solution tells, in this order
+    given: Scope  # those that are constants
+    places: int  # of the constants that change from query to query
+    constants: Constants  # these, and behind them those of the rules
+    distinct: bool  # whether answers have to be compared, lest one be given twice
+
+
+class Compiled(NamedTuple):
+    """The functions of a query, compiled, and what they read."""
+
+    make: Callable[[list[Any], Any], Callable[..., Any]]  # readers, call → the function
+    accesses: list[Access]
+    text: str
+
+
+def compile_query(question: Question, kind: str) -> Compiled:
+    """The function that answers QUESTION: with all answers, the first, or one at a time."""
+    source = Source()
+    main = _main(source, question, kind)
+    procs = reached_from(question.steps)
+    for proc in procs:
+        _proc(source, proc)
+    text = _factory(source, question, procs, main)
+    names: dict[str, Any] = {}
+    exec(compile(text, "<query>", "exec"), names)
+    outer = names["make"]
+    fixed = (EMPTY, DIRECT, value_of, Tables, question.constants, source.objects)
+
+    def make(readers: list[Any], call: Any) -> Callable[..., Any]:
+        return outer(readers, call, *fixed)  # type: ignore[no-any-return]
+
+    return Compiled(make, list(source.accesses), text)
+
+
+def _factory(source: Source, question: Question, procs: list[Proc], main: str) -> str:
+    """The text of the function that makes all others: what they share are its variables."""
+    lines = [FACTORY]
+    lines += [f"    {name} = readers[{number}]" for number, name in enumerate(source.accesses.values())]
+    lines += [f"    o{number} = objects[{number}]" for number in range(len(source.objects))]
+    inner = range(question.places, len(question.constants))
+    lines += [f"    c{number} = constants[{number}]" for number in inner]
+    if any(proc.circle for proc in procs):
+        lines += ["    memo = {}", "    tables = Tables()"]
+        lines += ["    complete = tables.complete", "    demand = tables.demand"]
+    for text in source.functions:
+        lines += ["    " + line for line in text.split("\n")]
+    lines += [f"    tables.starts[{proc.number}] = p{proc.number}" for proc in procs if _is_tabled(proc)]
+    return "\n".join([*lines, f"    return {main}", ""])
+
+
+def _is_tabled(proc: Proc) -> bool:
+    return bool(proc.circle) and not proc.is_linear()
+
+
+def _main(source: Source, question: Question, kind: str) -> str:
+    """The query's own function; its name."""
+    constants = tuple(f"c{number}" for number in range(question.places))
+    names = (*(("seen",) if question.distinct and kind != FIRST else ()), *constants)
+
+    def finish(scope: Scope) -> list[str]:
+        told = [each for each in question.variables if each in scope]
+        pairs = [f"{source.object(each)}: {source.value(scope[each])}" for each in told]
+        solution = "{" + ", ".join(pairs) + "}"
+        if kind == FIRST:
+            return [f"return {solution}"]
+        give = f"yield {solution}" if kind == LAZY else f"out.append({solution})"
+        if not question.distinct:
+            return [give]
+        mark = tuple_of([scope.get(each, "EMPTY") for each in question.variables])
+        return [f"mark = {mark}", "if mark not in seen:", "    seen.add(mark)", f"    {give}"]
+
+    lines = ["seen = set()"] if names != constants else []
+    if kind == ALL:
+        sink = Sink(finish, ("out", *names), ("{}",))
+        lines, ending = ["out = []", *lines], "return out"
+    elif kind == FIRST:
+        sink = Sink(
+            finish, names, ("found = {}", "if found is not None:", "    return found"), ("return None",)
+        )
+        ending = "return None"
+    else:
+        sink = Sink(finish, names, FOLLOW, GENERATES)
+        ending = GENERATES[0]
+    body = Body(source, sink, constants)
+    body.lines += lines
+    body.emit(question.steps, dict(question.given), 0)
+    source.add(f"def main({', '.join(constants)}):", [*body.lines, ending])
+    return "main"
+
+
+def _proc(source: Source, proc: Proc) -> None:
+    """The function of the rules of PROC."""
+    if not proc.circle:
+        _plain(source, proc)
+    elif proc.is_linear():
+        _linear(source, proc)
+    else:
+        _tabled(source, proc)
+
+
+def _keys(proc: Proc, letter: str = "k") -> list[str]:
+    """The Python variables that hold what is known."""
+    return [f"{letter}{place}" for place in proc.positions]
+
+
+def _row(proc: Proc, clause: Clause, body: Body, scope: Scope, letter: str = "k") -> str:
+    """The Python expression for an answer of CLAUSE."""
+    return tuple_of(
+        [
+            f"{letter}{place}" if place in proc.positions else body.expression(term, scope)
+            for place, term in enumerate(clause.head.terms)
+        ]
+    )
+
+
+def _stored(source: Source, proc: Proc, keep: list[str]) -> list[str]:
+    """The lines that take the facts themselves, which come before what is derived; KEEP takes a `row`."""
+    access = source.access(proc.relation, proc.positions)
+    keys = _keys(proc)
+    inner = ["    " + line for line in keep]
+    if len(keys) == proc.relation.arity:
+        return [f"row = {tuple_of(keys)}", f"if {access}(row):", *inner]
+    if not keys:
+        return [f"for row in {access}():", *inner]
+    return [f"for row in {access}({keys[0] if len(keys) == 1 else tuple_of(keys)}, EMPTY):", *inner]
+
+
+def _clause(
+    source: Source, proc: Proc, clause: Clause, base: Sink, save: Callable[[Body, Scope], list[str]]
+) -> list[str]:
+    """The lines of one rule; SAVE says what becomes of an answer."""
+    steps = clause.steps
+    body = Body(source, base, ())
+    body.sink = base._replace(finish=lambda scope: save(body, scope))
+    places = [(clause.head.terms[place], f"k{place}") for place in proc.positions]
+    scope, depth = body.unify(places, {}, 0)
+    mark = len(body.lines)
+    body.emit(steps, scope, depth)
+    if len(body.lines) == mark:
+        body.line(depth, "pass")
+    return body.lines
+
+
+def _plain(source: Source, proc: Proc) -> None:
+    """A generator, for rules that do not need themselves."""
+    names = ("seen", *_keys(proc))
+    keep = ["seen.add(row)", "yield row"]
+    if len(proc.positions) == proc.relation.arity:
+        keep = ["yield row", "return"]
+    lines = ["seen = set()", *_stored(source, proc, keep)]
+    base = Sink(lambda _: [], names, FOLLOW, GENERATES)
+    for clause in proc.clauses:
+
+        def save(body: Body, scope: Scope, clause: Clause = clause) -> list[str]:
+            row = _row(proc, clause, body, scope)
+            return [f"row = {row}", "if row not in seen:", "    seen.add(row)", "    yield row"]
+
+        lines += _clause(source, proc, clause, base, save)
+    source.add(f"def p{proc.number}({', '.join(_keys(proc))}):", [*lines, *GENERATES])
+
+
+def _linear(source: Source, proc: Proc) -> None:
+    """A generator that walks from question to question; what it finds answers the first of them."""
+    roots = _keys(proc, "b")
+    names = ("have", "asked", "agenda", *roots, *_keys(proc))
+    keep = ["if row not in have:", "    have[row] = None", "    yield row"]
+    rooted = tuple_of(
+        [f"b{place}" if place in proc.positions else f"row[{place}]" for place in range(proc.relation.arity)]
+    )
+    inner = [f"{tuple_of(_keys(proc))} = key"] if proc.positions else []
+    inner += _stored(source, proc, [f"row = {rooted}", *keep])
+    base = Sink(lambda _: [], names, FOLLOW, GENERATES)
+    for clause in proc.clauses:
+        is_tail = proc.is_tail(clause)
+        last = clause.steps[-1] if is_tail else None
+
+        def save(body: Body, scope: Scope, clause: Clause = clause, last: Any = last) -> list[str]:
+            if isinstance(last, Look):
+                keys = [body.expression(last.atom.terms[place], scope) for place in last.positions]
+                ask = ["    asked[key] = None", "    agenda.append(key)"]
+                return [f"key = {tuple_of(keys)}", "if key not in asked:", *ask]
+            return [f"row = {_row(proc, clause, body, scope, 'b')}", *keep]
+
+        shortened = clause._replace(steps=clause.steps[:-1]) if is_tail else clause
+        inner += _clause(source, proc, shortened, base, save)
+    lines = [f"root = {tuple_of(roots)}", f"have = memo.get(({proc.number}, root))"]
+    lines += ["if have is not None:", "    yield from have", "    return"]
+    lines += ["have = {}", "asked = {root: None}", "agenda = [root]", "for key in agenda:"]
+    lines += ["    " + line for line in inner]
+    lines += [f"memo[{proc.number}, root] = have"]
+    source.add(f"def p{proc.number}({', '.join(roots)}):", [*lines, *GENERATES])
+
+
+def _tabled(source: Source, proc: Proc) -> None:
+    """A function that begins to fill a table."""
+    keep = ["if row not in have:", "    have[row] = None", "    fresh.append(row)"]
+    lines = [*TABLE_OPENING]
+    lines += [f"{tuple_of(_keys(proc))} = key"] if proc.positions else []
+    lines += _stored(source, proc, keep)
+    base = Sink(lambda _: [], (*TABLE_NAMES, *_keys(proc)), ("{}",), circle=proc.circle)
+    for clause in proc.clauses:
+
+        def save(body: Body, scope: Scope, clause: Clause = clause) -> list[str]:
+            return [f"row = {_row(proc, clause, body, scope)}", *keep]
+
+        lines += _clause(source, proc, clause, base, save)
+    source.add(f"def p{proc.number}(t, key, rows):", lines)

@@ -1,0 +1,80 @@
+"""Terms with variables inside a list: making them, and taking them apart."""
+
+from __future__ import annotations
+
+from eslang.base.hints import Callable
+from eslang.base.lists import Cons, from_items
+from eslang.base.symbols import Symbol, Value
+from eslang.facts.goals import ANYTHING, Constant, Nested, Term
+from eslang.facts.terms import Code, code_of, value_of
+
+Leaf = Symbol | Constant
+
+
+def leaves_of(term: Term | None) -> list[Leaf]:
+    """The variables and constants in TERM, each once, in the order of their first occurrence; no ?_."""
+    if term is None:
+        return []
+    if not isinstance(term, Nested):
+        return [] if isinstance(term, Symbol) and term.name == ANYTHING else [term]
+    found: dict[Leaf, None] = {}
+    for part in (*term.parts, term.tail):
+        found.update(dict.fromkeys(leaves_of(part)))
+    return list(found)
+
+
+def builder(term: Nested) -> Callable[..., Code]:
+    """What makes the code of TERM of the codes of its leaves."""
+    leaves = leaves_of(term)
+
+    def value(part: Term, values: dict[Leaf, Value]) -> Value:
+        if not isinstance(part, Nested):
+            return values[part]
+        result = None if part.tail is None else value(part.tail, values)
+        for each in reversed(part.parts):
+            result = Cons(value(each, values), result)
+        return result
+
+    def build(*codes: Code) -> Code:
+        return code_of(value(term, dict(zip(leaves, map(value_of, codes), strict=True))))
+
+    return build
+
+
+def matcher(term: Nested, known: list[Leaf], wanted: list[Symbol]) -> Callable[..., tuple[Code, ...] | None]:
+    """What takes a code apart as TERM says, given codes for KNOWN leaves: the codes of what is WANTED."""
+
+    def match(code: Code, *codes: Code) -> tuple[Code, ...] | None:
+        found: dict[Leaf, Code] = dict(zip(known, codes, strict=True))
+        pending: list[tuple[Term | None, Value]] = [(term, value_of(code))]
+        while pending:
+            part, value = pending.pop()
+            if isinstance(part, Nested):
+                for each in part.parts:
+                    if value.__class__ is not Cons:
+                        return None
+                    pending.append((each, value.car))
+                    value = value.cdr
+                pending.append((part.tail, value))
+            elif part is None:
+                if value is not None:
+                    return None
+            elif not (isinstance(part, Symbol) and part.name == ANYTHING):
+                seen = code_of(value)
+                if found.setdefault(part, seen) != seen:
+                    return None
+        return tuple([found[variable] for variable in wanted])
+
+    return match
+
+
+def row_matcher(terms: tuple[Term, ...], constants: list[Code]) -> Callable[[tuple[Code, ...]], bool] | None:
+    """What tells whether a row is as TERMS say, constants aside; None if every row is."""
+    names = [term for term in terms if isinstance(term, Symbol) and term.name != ANYTHING]
+    if len(set(names)) == len(names) and not any(isinstance(term, Nested) for term in terms):
+        return None
+    whole = Nested(terms, None)
+    known = [leaf for leaf in leaves_of(whole) if isinstance(leaf, Constant)]
+    codes = [constants[leaf.number] for leaf in known]
+    match = matcher(whole, list(known), [])
+    return lambda row: match(code_of(from_items([value_of(code) for code in row])), *codes) is not None

@@ -1,0 +1,126 @@
+"""Plans: queries as they run.
+
+A plan is made once for all queries that differ in their constants only. It
+runs on the facts as they are where nothing can change them meanwhile, else on
+a view, which is what a snapshot is.
+"""
+
+from __future__ import annotations
+
+from eslang.base.hints import Any, Callable, Iterator
+from eslang.base.symbols import Symbol, Value
+from eslang.facts.functions import ALL, FIRST, LAZY, Compiled, Question, compile_query
+from eslang.facts.goals import Constants, Tokens, shape_of
+from eslang.facts.procs import Planner, reached_from, tests
+from eslang.facts.relations import View
+from eslang.facts.steps import Steps, may_repeat
+from eslang.facts.watching import Reads
+
+Solution = dict[Symbol, Value]
+Call = Callable[[Symbol, list[Value]], bool]
+
+
+class Plan:
+    """How all queries of one shape are answered."""
+
+    __slots__ = ("call", "compiled", "is_fresh", "question", "run_all", "run_first", "tests")
+
+    def __init__(self, planner: Planner, tokens: Tokens, call: Call) -> None:
+        count = len(planner.constants)
+        shape = shape_of(tokens)
+        steps = planner.plan(shape)
+        given = {variable: f"c{place.number}" for variable, place in shape.given.items()}
+        distinct = may_repeat(shape.goal)
+        self.question = Question(steps, shape.variables, given, count, planner.constants, distinct)
+        procs = reached_from(steps)
+        bodies: list[Steps] = [steps, *(clause.steps for proc in procs for clause in proc.clauses)]
+        self.tests = [name for body in bodies for name in tests(body)]
+        self.is_fresh = any(proc.circle for proc in procs)  # what it remembers is for one run only
+        self.call = call
+        self.compiled: dict[str, Compiled] = {}
+        self.run_all: Callable[..., Any] | None = (
+            None  # what runs on the facts as they are, if it can be kept
+        )
+        self.run_first: Callable[..., Any] | None = None
+
+    def functions(self, kind: str) -> Compiled:
+        """The functions that answer in this way."""
+        found = self.compiled.get(kind)
+        if found is None:
+            found = self.compiled[kind] = compile_query(self.question, kind)
+        return found
+
+    def runner(self, kind: str) -> Callable[..., Any]:
+        """What answers from the facts as they are; nothing may change them while it runs."""
+        compiled = self.functions(kind)
+        return compiled.make([access.reader() for access in compiled.accesses], self.call)
+
+    def all(self, constants: Constants) -> list[Solution]:
+        """All solutions."""
+        if self.tests:
+            return list(self.solutions(constants))
+        run = self.runner(ALL)
+        self.run_all = None if self.is_fresh else run
+        return run(*constants)  # type: ignore[no-any-return]
+
+    def first(self, constants: Constants) -> Solution | None:
+        """The first solution; None if there is none."""
+        if self.tests:
+            solutions = self.solutions(constants)
+            found = next(solutions, None)
+            solutions.close()
+            return found
+        run = self.runner(FIRST)
+        self.run_first = None if self.is_fresh else run
+        return run(*constants)  # type: ignore[no-any-return]
+
+    def solutions(self, constants: Constants) -> Solutions:
+        """The solutions of this moment, one at a time."""
+        compiled = self.functions(LAZY)
+        view = View(compiled.accesses)
+        return Solutions(view, compiled.make(view.readers(), self.call)(*constants))
+
+    def noting(self, constants: Constants, reads: Reads) -> Solution | None:
+        """The first solution, and in READS what was read to find it."""
+        compiled = self.functions(FIRST)
+        view = View(compiled.accesses) if self.tests else None
+        plain = view.readers() if view else [access.reader() for access in compiled.accesses]
+        readers = [
+            reads.reader(access, reader) for access, reader in zip(compiled.accesses, plain, strict=True)
+        ]
+        for access in compiled.accesses:
+            reads.note_rules(access.relation)
+        reads.asked_lisp = reads.asked_lisp or bool(self.tests)
+        try:
+            return compiled.make(readers, self.call)(*constants)  # type: ignore[no-any-return]
+        finally:
+            if view:
+                view.close()
+
+
+class Solutions:
+    """The solutions of a query as they were when it was entered; found when they are asked for."""
+
+    __slots__ = ("_run", "_view")
+
+    def __init__(self, view: View, run: Iterator[Solution]) -> None:
+        self._view = view
+        self._run = run
+
+    def __iter__(self) -> Iterator[Solution]:
+        return self
+
+    def __next__(self) -> Solution:
+        try:
+            return next(self._run)
+        except BaseException:
+            self._view.close()
+            raise
+
+    def close(self) -> None:
+        """No more of them are wanted."""
+        self._view.close()
+        self._run = iter(())
+
+    def __del__(self) -> None:
+        self._view.close()

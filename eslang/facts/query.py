@@ -1,0 +1,139 @@
+"""The logical database of one interpreter: facts, rules, and the answers to queries.
+
+Which names are Lisp functions, and how they are called, is told from outside:
+this room knows no Lisp. Queries of one shape share a plan; plans are dropped
+when a rule or a declaration changes what they rest on.
+"""
+
+from __future__ import annotations
+
+from eslang.base.hints import Callable
+from eslang.base.symbols import Symbol, Value
+from eslang.facts.explain import Explanation, explain
+from eslang.facts.functions import ALL
+from eslang.facts.goals import NOTHING_GIVEN, Atom, Constants, Given, Tokens, quick_tokens, read_query
+from eslang.facts.plans import Call, Plan, Solution, Solutions
+from eslang.facts.procs import Planner
+from eslang.facts.relations import Relation
+from eslang.facts.rules import Name, Rule, Rules
+from eslang.facts.store import Store
+from eslang.facts.watching import Reads, woken_by_rules
+
+
+class Facts(Store):
+    """A store that can be asked."""
+
+    def __init__(self, is_call: Callable[[Symbol], bool], call: Call) -> None:
+        super().__init__()
+        self.is_call = is_call
+        self.call = call
+        self.declared: dict[Symbol, list[int]] = {}  # names, and the arities they were declared with
+        self.rules = Rules(self.is_test)
+        self.plans: dict[Tokens | None, Plan] = {}
+
+    def declare(self, name: Symbol, arity: int | None = None) -> None:
+        """Let NAME be a relation, of ARITY if that is told."""
+        arities = self.declared.setdefault(name, [])
+        if arity is not None and arity not in arities:
+            arities.append(arity)
+        self.became_relation(name)
+
+    def declare_property(self, name: Symbol) -> None:
+        """Let NAME be a relation whose last argument is unique for the others."""
+        self.declared.setdefault(name, [])
+        super().declare_property(name)
+        self.plans.clear()
+
+    def is_relation(self, name: Symbol) -> bool:
+        """Whether NAME was declared, or has rules, or has or had facts."""
+        return (
+            name in self.known or name in self.declared or any(each[0] is name for each in self.rules.by_name)
+        )
+
+    def is_test(self, name: Symbol) -> bool:
+        """Whether NAME in a query is a call of Lisp."""
+        return not self.is_relation(name) and self.is_call(name)
+
+    def became_coded(self, relation: Relation) -> None:
+        """Rows of RELATION may hold codes from now on, which plans did not reckon with."""
+        super().became_coded(relation)
+        self.plans.clear()
+
+    def became_relation(self, name: Symbol) -> None:
+        """NAME is a relation from now on, even if plans took it for a function."""
+        if any(name in plan.tests for plan in self.plans.values()):
+            self.plans.clear()
+
+    def define_rule(self, head: Value, body: Value) -> bool:
+        """Derive HEAD from the goals in the list BODY, too; false if that is known."""
+        rule = self.rules.define(head, body)
+        if rule is not None:
+            self._rules_changed([rule.name])
+        return rule is not None
+
+    def forget_rules(self, name: Symbol) -> bool:
+        """Derive no facts of NAME any more; false if there were no rules."""
+        names = self.rules.forget(name)
+        self._rules_changed(names)
+        return bool(names)
+
+    def all(self, query: Value, given: Given = NOTHING_GIVEN) -> list[Solution]:
+        """All solutions of QUERY; the variables that are GIVEN have their values."""
+        constants: Constants = []
+        plan = None if given else self.plans.get(quick_tokens(query, constants))
+        if plan is None:
+            plan, constants = self.plan(query, given)
+        run = plan.run_all
+        return plan.all(constants) if run is None else run(*constants)
+
+    def first(self, query: Value, given: Given = NOTHING_GIVEN) -> Solution | None:
+        """The first solution of QUERY; None if there is none."""
+        constants: Constants = []
+        plan = None if given else self.plans.get(quick_tokens(query, constants))
+        if plan is None:
+            plan, constants = self.plan(query, given)
+        run = plan.run_first
+        return plan.first(constants) if run is None else run(*constants)
+
+    def solutions(self, query: Value, given: Given = NOTHING_GIVEN) -> Solutions:
+        """The solutions that QUERY has now, found one at a time, whatever is changed meanwhile."""
+        plan, constants = self.plan(query, given)
+        return plan.solutions(constants)
+
+    def ask(self, query: Value, given: Given = NOTHING_GIVEN) -> tuple[Solution | None, Reads]:
+        """The first solution of QUERY, if any, and what was read to know that."""
+        plan, constants = self.plan(query, given)
+        reads = Reads()
+        return plan.noting(constants, reads), reads
+
+    def explain(self, query: Value, given: Given = NOTHING_GIVEN) -> Explanation:
+        """How QUERY is answered."""
+        plan, constants = self.plan(query, given)
+        plan.runner(ALL)  # the indexes that it needs are there
+        return explain(plan.question, constants)
+
+    def plan(self, query: Value, given: Given = NOTHING_GIVEN) -> tuple[Plan, Constants]:
+        """How QUERY is answered, and its constants."""
+        tokens, constants = read_query(query, given)
+        plan = self.plans.get(tokens)
+        if plan is None:
+            plan = self.plans[tokens] = Plan(self.planner(constants), tokens, self.call)
+        return plan, constants
+
+    def planner(self, constants: Constants) -> Planner:
+        """What plans a query with these constants."""
+        return Planner(self._resolve, self._rules_of, constants)
+
+    def _resolve(self, atom: Atom) -> Relation | None:
+        """The relation that ATOM is about; None if it is a call."""
+        return None if self.is_test(atom.name) else self.relation(atom.name, len(atom.terms))
+
+    def _rules_of(self, name: Name) -> list[Rule]:
+        return self.rules.by_name.get(name, [])
+
+    def _rules_changed(self, names: list[Name]) -> None:
+        """Forget the plans, and wake who asked these relations."""
+        self.plans.clear()
+        woken = dict.fromkeys(watch for name in names for watch in woken_by_rules(self.relation(*name)))
+        for watch in woken:
+            watch.callback(None)

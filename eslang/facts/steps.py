@@ -1,0 +1,216 @@
+"""Steps: in which order a query's goals are asked, and what each looks up.
+
+A goal is asked as soon as what it needs is bound: tests and NOT when all
+their variables are; of patterns first those that one look-up answers, then
+those that what is bound joins, and at last those of which nothing is known.
+Where that leaves a choice, goals are asked in the order in which they stand.
+"""
+
+from __future__ import annotations
+
+from eslang.base.failure import Failure
+from eslang.base.hints import Any, Callable, NamedTuple
+from eslang.base.symbols import Symbol, Value
+from eslang.facts.goals import (
+    ANYTHING,
+    Atom,
+    Both,
+    Constants,
+    Either,
+    Goal,
+    Nested,
+    Never,
+    Term,
+    form_of,
+    has_anything,
+    unbound,
+    variables_of,
+)
+from eslang.facts.relations import Positions, Relation
+
+Bound = frozenset[Symbol]
+ANYTHING_AT_ALL = Symbol.intern(ANYTHING, "ESL-USER")  # for messages
+
+
+class Look(NamedTuple):
+    """Look into a relation, with what stands at some positions known."""
+
+    atom: Atom
+    relation: Relation
+    positions: Positions
+    proc: Any  # the rules that answer, too (procs.py); None if there are none
+
+
+class Test(NamedTuple):
+    """Ask Lisp."""
+
+    atom: Atom
+
+
+class Absent(NamedTuple):
+    """Go on if the steps lead nowhere."""
+
+    goal: Never
+    steps: Steps
+
+
+class Present(NamedTuple):
+    """Go on, once, if one of these ways leads somewhere."""
+
+    goal: Either
+    ways: tuple[Steps, ...]
+
+
+class Branch(NamedTuple):
+    """Go each of these ways; each holds all that is still to be done."""
+
+    goal: Either
+    ways: tuple[Steps, ...]
+
+
+Step = Look | Test | Absent | Present | Branch
+Steps = list[Step]
+
+GROUND, DECIDED, DETERMINED, JOINED, KNOWN, UNKNOWN = range(6)  # how promising a goal is
+
+
+class Arranger:
+    """Puts the goals of one body in order."""
+
+    def __init__(
+        self,
+        resolve: Callable[[Atom], Relation | None],
+        rules: Callable[[Relation, Positions], Any],
+        constants: Constants,
+    ) -> None:
+        self.resolve = resolve  # the relation that an atom is about; None: it is a test
+        self.rules = rules  # the proc for a relation and positions, or None; fails where the rules cannot run
+        self.constants = constants
+
+    def arrange(self, goals: tuple[Goal, ...], bound: Bound) -> Steps:
+        """The steps for GOALS, when BOUND variables have values."""
+        steps: Steps = []
+        left = _flat(goals)
+        while left:
+            number = self._next(left, bound)
+            goal = left.pop(number)
+            if isinstance(goal, Either) and not self._is_decided(goal, bound):
+                rest = tuple(left)
+                branch = Branch(goal, tuple(self.arrange((each, *rest), bound) for each in goal.goals))
+                return [*steps, branch]
+            steps.append(self._step(goal, bound))
+            if isinstance(goal, Atom):
+                bound |= variables_of(goal).keys()
+        return steps
+
+    def _step(self, goal: Goal, bound: Bound) -> Step:
+        """The step for a GOAL that is ready."""
+        if isinstance(goal, Never):
+            return Absent(goal, self.arrange((goal.goal,), bound))
+        if isinstance(goal, Either):
+            return Present(goal, tuple(self.arrange((each,), bound) for each in goal.goals))
+        assert isinstance(goal, Atom)
+        relation = self.resolve(goal)
+        if relation is None:
+            return Test(goal)
+        proc = self.rules(relation, asked_positions(goal, bound))
+        return Look(goal, relation, known_positions(goal, bound) if proc is None else proc.positions, proc)
+
+    def _next(self, left: list[Goal], bound: Bound) -> int:
+        """Which goal comes next; fails if none is ready."""
+        best, score, trouble = -1, UNKNOWN + 1, None
+        for number, goal in enumerate(left):
+            if score <= DECIDED:
+                break
+            obstacle = self._obstacle(goal, bound)
+            if obstacle is not None:
+                trouble = trouble or obstacle
+            elif self._score(goal, bound) < score:
+                best, score = number, self._score(goal, bound)
+        if best < 0:
+            assert trouble is not None
+            raise trouble
+        return best
+
+    def _obstacle(self, goal: Goal, bound: Bound) -> Failure | None:
+        """Why GOAL cannot be asked yet."""
+        try:
+            if isinstance(goal, Either):
+                for each in goal.goals:
+                    self.arrange((each,), bound)
+                return None
+            relation = self.resolve(goal) if isinstance(goal, Atom) else None
+            if relation is not None:
+                assert isinstance(goal, Atom)
+                self.rules(relation, asked_positions(goal, bound))
+                return None
+        except Failure as failure:
+            return failure
+        missing = [variable for variable in variables_of(goal) if variable not in bound]
+        if isinstance(goal, Atom) and any(map(has_anything, goal.terms)):
+            missing.append(ANYTHING_AT_ALL)
+        return unbound(missing[0], self.form(goal)) if missing else None
+
+    def _score(self, goal: Goal, bound: Bound) -> int:
+        """How promising GOAL, which is ready, is: the less the better."""
+        variables = variables_of(goal).keys()
+        joined = bool(variables & bound)
+        if not isinstance(goal, Atom):
+            return DECIDED if variables <= bound else JOINED if joined else UNKNOWN
+        relation = self.resolve(goal)
+        if relation is None:
+            return GROUND
+        positions = known_positions(goal, bound)
+        if len(positions) == relation.arity:
+            return GROUND
+        if relation.unique is not None and positions == relation.unique:
+            return DETERMINED
+        return JOINED if joined and positions else KNOWN if positions else UNKNOWN
+
+    def _is_decided(self, goal: Either, bound: Bound) -> bool:
+        """Whether GOAL binds nothing and asks no rules, so that it is just true or not."""
+        return variables_of(goal).keys() <= bound and not self._asks_rules(goal)
+
+    def _asks_rules(self, goal: Goal) -> bool:
+        if isinstance(goal, Atom):
+            relation = self.resolve(goal)
+            return relation is not None and self.rules(relation, tuple(range(relation.arity))) is not None
+        inner = (goal.goal,) if isinstance(goal, Never) else goal.goals
+        return any(self._asks_rules(each) for each in inner)
+
+    def form(self, goal: Goal) -> Value:
+        """GOAL as it was written."""
+        return form_of(goal, self.constants)
+
+
+def _flat(goals: tuple[Goal, ...]) -> list[Goal]:
+    """GOALS, with what stands in an AND in its place."""
+    flat: list[Goal] = []
+    for goal in goals:
+        flat += _flat(goal.goals) if isinstance(goal, Both) else [goal]
+    return flat
+
+
+def known_positions(atom: Atom, bound: Bound) -> Positions:
+    """Where terms of ATOM stand that are known when BOUND variables have values."""
+    return tuple(place for place, term in enumerate(atom.terms) if is_known(term, bound))
+
+
+def asked_positions(atom: Atom, bound: Bound) -> Positions:
+    """The same, where rules are asked: without terms that the question makes, or it might never end."""
+    known = known_positions(atom, bound)
+    return tuple(place for place in known if not isinstance(atom.terms[place], Nested))
+
+
+def is_known(term: Term, bound: Bound) -> bool:
+    """Whether TERM has one value when BOUND variables have theirs."""
+    if isinstance(term, Nested):
+        return not has_anything(term) and variables_of(term).keys() <= bound
+    return not isinstance(term, Symbol) or term in bound
+
+
+def may_repeat(goal: Goal) -> bool:
+    """Whether GOAL may be true twice under the same bindings."""
+    if isinstance(goal, Atom):
+        return any(has_anything(term) for term in goal.terms)
+    return isinstance(goal, Either) or (isinstance(goal, Both) and any(map(may_repeat, goal.goals)))

@@ -1,0 +1,243 @@
+"""The store: what is asserted, and who hears of it.
+
+A fact is held once. A change is whole before anybody is told: an UPDATE takes
+away and adds, a property's new value takes the place of the old, and only then
+do those who subscribed hear of each fact that came or went, in order, and
+those who watch are woken, once.
+"""
+
+from __future__ import annotations
+
+from eslang.base.failure import type_error
+from eslang.base.hints import Callable, Iterable, Iterator
+from eslang.base.lists import Cons
+from eslang.base.symbols import Symbol, Value
+from eslang.facts.goals import (
+    NOTHING_GIVEN,
+    Atom,
+    Constants,
+    Tokens,
+    has_variables,
+    read_query,
+    shape_of,
+    unbound,
+)
+from eslang.facts.properties import overruled, unique_positions
+from eslang.facts.relations import EMPTY, Relation
+from eslang.facts.steps import is_known
+from eslang.facts.terms import DIRECT, Row, code_of, fact_of
+from eslang.facts.unify import is_variable
+from eslang.facts.watching import Change, Watch, woken_by
+
+Subscriber = Callable[[Change], object]
+
+
+class Store:
+    """Facts by relation."""
+
+    def __init__(self) -> None:
+        self.relations: dict[tuple[Symbol, int], Relation] = {}
+        self.properties: dict[Symbol, None] = {}
+        self.known: dict[Symbol, None] = {}  # names that have, or had, facts
+        self.subscribers: list[Subscriber] = []
+        self._patterns: dict[Tokens, tuple[Relation, Atom]] = {}  # that were asked for by RETRACT and UPDATE
+        self._changes: list[tuple[Relation, Change]] = []  # made, and not told yet
+        self._telling = False
+
+    def relation(self, name: Symbol, arity: int) -> Relation:
+        """The relation of that name and arity; an empty one if nobody spoke of it yet."""
+        relation = self.relations.get((name, arity))
+        if relation is None:
+            relation = self.relations[name, arity] = Relation(name, arity)
+            if name in self.properties:
+                relation.unique = unique_positions(arity)
+        return relation
+
+    def named(self, name: Symbol) -> list[Relation]:
+        """The relations of that name, whatever their arity."""
+        return [relation for relation in self.relations.values() if relation.name is name]
+
+    def __len__(self) -> int:
+        return sum(len(relation.rows) for relation in self.relations.values())
+
+    def __contains__(self, fact: Value) -> bool:
+        relation, row = self.read_fact(fact)
+        return row in relation.rows
+
+    def facts(self, name: Symbol | None = None) -> Iterator[Cons]:
+        """All facts, or those of one name, as lists, relation by relation in the order of assertion."""
+        for relation in list(self.relations.values()):
+            if name is None or relation.name is name:
+                for row in tuple(relation.rows):
+                    yield fact_of(relation.name, row)
+
+    def read_fact(self, fact: Value) -> tuple[Relation, Row]:
+        """The relation and the row of a fact; fails if a variable stands in it."""
+        if fact.__class__ is not Cons:
+            raise type_error(fact, "LIST")
+        name = fact.car
+        if not isinstance(name, Symbol) or is_variable(name):
+            raise type_error(name, "SYMBOL")
+        row = []
+        rest = fact.cdr
+        is_plain = True
+        while rest.__class__ is Cons:
+            term = rest.car
+            rest = rest.cdr
+            kind = term.__class__
+            if kind not in DIRECT or (kind is Symbol and "?" <= term.name < "@"):
+                if has_variables(term):
+                    raise unbound(_first_variable(term), fact)
+                term = code_of(term)
+                is_plain = is_plain and kind is Symbol
+            row.append(term)
+        if rest is not None:
+            raise type_error(fact, "LIST")
+        relation = self.relations.get((name, len(row))) or self.relation(name, len(row))
+        if relation.is_plain and not is_plain:
+            self.became_coded(relation)
+        return relation, tuple(row)
+
+    def add(self, fact: Value) -> bool:
+        """Hold FACT; false if it is held already."""
+        relation, row = self.read_fact(fact)
+        added = self._add(relation, row)
+        self._tell()
+        return added
+
+    def add_all(self, facts: Iterable[Value]) -> int:
+        """Hold all FACTS, as one change; how many were not held already. All are read before any is taken."""
+        rows = [self.read_fact(fact) for fact in facts]
+        count = sum([self._add(relation, row) for relation, row in rows])
+        self._tell()
+        return count
+
+    def retract(self, pattern: Value) -> int:
+        """Give up all facts that match PATTERN; how many there were."""
+        relation, rows = self.matching(pattern)
+        for row in rows:
+            self._remove(relation, row)
+        self._tell()
+        return len(rows)
+
+    def update(self, pattern: Value, fact: Value) -> bool:
+        """Let FACT take the place of all facts that match PATTERN; false if nothing changed by that."""
+        relation, row = self.read_fact(fact)
+        old, rows = self.matching(pattern)
+        for each in rows:
+            if old is not relation or each != row:
+                self._remove(old, each)
+        self._add(relation, row)
+        changed = bool(self._changes)
+        self._tell()
+        return changed
+
+    def clear(self) -> int:
+        """Give up all facts; how many there were."""
+        count = len(self)
+        for relation in list(self.relations.values()):
+            for row in tuple(relation.rows):
+                self._remove(relation, row)
+        self._tell()
+        return count
+
+    def matching(self, pattern: Value) -> tuple[Relation, list[Row]]:
+        """The relation that PATTERN is about, and its rows that match, in order."""
+        tokens, constants = read_query(pattern, NOTHING_GIVEN)
+        found = self._patterns.get(tokens)
+        if found is None:
+            atom = shape_of(tokens).goal
+            if not isinstance(atom, Atom):
+                raise type_error(pattern, "FACT")
+            found = self._patterns[tokens] = self.relation(atom.name, len(atom.terms)), atom
+        return found[0], _matching(*found, constants)
+
+    def declare_property(self, name: Symbol) -> None:
+        """Let the last argument of NAME be unique for the others; of facts that clash the last stays."""
+        self.properties[name] = None
+        for relation in self.named(name):
+            relation.unique = unique_positions(relation.arity)
+            for row in overruled(relation) if relation.arity else ():
+                self._remove(relation, row)
+        self._tell()
+
+    def subscribe(self, subscriber: Subscriber) -> Callable[[], None]:
+        """Tell SUBSCRIBER of every change from now on; what is returned ends that."""
+        self.subscribers.append(subscriber)
+
+        def unsubscribe() -> None:
+            if subscriber in self.subscribers:
+                self.subscribers.remove(subscriber)
+
+        return unsubscribe
+
+    def _add(self, relation: Relation, row: Row) -> bool:
+        if row in relation.rows:
+            return False
+        if relation.unique is not None:
+            for rival in relation.rivals(row):
+                self._remove(relation, rival)
+        if not relation.rows and relation.name not in self.known:
+            self.known[relation.name] = None
+            self.became_relation(relation.name)
+        relation.add(row)
+        if relation.watched or self.subscribers:
+            self._changes.append((relation, Change(True, relation.name, row)))
+        return True
+
+    def _remove(self, relation: Relation, row: Row) -> None:
+        relation.remove(row)
+        if relation.watched or self.subscribers:
+            self._changes.append((relation, Change(False, relation.name, row)))
+
+    def became_relation(self, name: Symbol) -> None:
+        """NAME is a relation from now on."""
+
+    def became_coded(self, relation: Relation) -> None:
+        """Rows of RELATION may hold codes from now on."""
+        relation.is_plain = False
+
+    def _tell(self) -> None:
+        """Tell of the changes, those of whoever is told included, in the order in which they were made."""
+        if self._telling or not self._changes:
+            return
+        self._telling = True
+        try:
+            while self._changes:
+                told, self._changes = self._changes, []
+                woken: dict[Watch, Change] = {}
+                for relation, change in told:
+                    for subscriber in tuple(self.subscribers):
+                        subscriber(change)
+                    for watch in woken_by(relation, change.row):
+                        woken.setdefault(watch, change)
+                for watch, change in woken.items():
+                    watch.callback(change)
+        finally:
+            self._telling = False
+
+
+def _first_variable(term: Value) -> Symbol:
+    pending = [term]
+    while True:
+        term = pending.pop()
+        if is_variable(term):
+            return term  # type: ignore[no-any-return]
+        if term.__class__ is Cons:
+            pending += [term.cdr, term.car]
+
+
+def _matching(relation: Relation, atom: Atom, constants: Constants) -> list[Row]:
+    """The rows of RELATION that ATOM matches, in order."""
+    from eslang.facts.nested import row_matcher  # only what is not ground needs it
+
+    known = tuple(place for place, term in enumerate(atom.terms) if is_known(term, frozenset()))
+    codes = tuple(constants[atom.terms[place].number] for place in known)  # type: ignore[union-attr]
+    if len(known) == relation.arity:
+        return [codes] if codes in relation.rows else []
+    if not known:
+        rows: Iterable[Row] = relation.rows
+    else:
+        rows = relation.index(known).get(codes[0] if len(codes) == 1 else codes, EMPTY)
+    matches = row_matcher(atom.terms, constants)
+    return [row for row in rows if matches is None or matches(row)]
