@@ -115,10 +115,11 @@ class Guest:
         """True if the loop should have its turn."""
         if self._resting or not self._rounds:
             return self._resting
-        scheduler = self.scheduler
-        idle = not scheduler.ready and scheduler.posted.empty()
         assert self.loop is not None
-        return idle or self._rounds >= MOST or self.loop.time() > self._until
+        return self._is_idle() or self._rounds >= MOST or self.loop.time() > self._until
+
+    def _is_idle(self) -> bool:
+        return not self.scheduler.ready and self.scheduler.posted.empty()
 
     def _look_ahead(self) -> None:
         """Let the next batch come when there is something to do, and tell who expected what came about."""
@@ -138,7 +139,8 @@ class Guest:
         if self.loop is None or self.loop.is_closed():
             return
         if not self._resting:
-            self._next = self.loop.call_soon(self._batch)
+            if not self._is_idle() or self.scheduler.timers or self.scheduler.watching:
+                self._next = self.loop.call_soon(self._batch)
         elif self._pause is not None:
             self._next = self.loop.call_later(self._pause, self._batch)
 

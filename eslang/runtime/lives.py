@@ -7,6 +7,7 @@ spawned; what is then known of it stays: status, values, failure, checkpoints.
 
 from __future__ import annotations
 
+import sys
 from _weakref import ref
 
 from eslang.base.control import EndTask, Failed, Stop, Unwind
@@ -68,6 +69,9 @@ class Lives:
         task.dynamic.logical = self.session.dynamic.logical
         if self.session.bindings.hidden is not None:
             task.kept = self.session.bindings.copy(), 0
+        variables = sys.modules.get("_contextvars")
+        if variables is not None:  # Python's, for the primitives
+            task.surroundings = variables.copy_context()
         return task
 
     def start(self, task: Task, role: str) -> None:
@@ -93,6 +97,8 @@ class Lives:
             self._next = task
             task.stack = self._spare.pop() if self._spare else self._stack()
             task.switch = task.stack.switch
+            if task.surroundings is not None:
+                task.stack.gr_context = task.surroundings
         task.stack.switch()
         if self.crash is not None:
             crash, self.crash = self.crash, None
@@ -227,7 +233,8 @@ class Lives:
             self.recent.append(task)
         task.body = task.source = None
         task.interrupts.clear()
-        task.stack = task.switch = task.ending = None
+        task.stack = task.switch = task.ending = task.surroundings = None
+        task.queued = False
         self.scheduler.current = None
         self.scheduler.wake(task.reach(END))
         self.scheduler.wake(task.signal(task.given()))

@@ -98,6 +98,7 @@ class Task(Event):
         "spare",
         "stack",
         "status",
+        "surroundings",
         "switch",
         "unseen",
         "values",
@@ -113,6 +114,7 @@ class Task(Event):
         self.dynamic = Dynamic()
         self.stack: Any = None  # the greenlet, once it runs
         self.switch: Any = None  # goes on with that; None if only the driver can let it go on
+        self.surroundings: Any = None  # the variables that Python code finds, once it has begun: a Context
         self.status: Keyword | None = None  # how it ended
         self.values: Value = None  # what it gave, all values
         self.failure: Failure | None = None  # what ended it

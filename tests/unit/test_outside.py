@@ -373,6 +373,19 @@ def test_what_cannot_be_a_primitive_is_refused(agent: Interpreter, blocking: boo
             agent.primitive(blocking=True)(wait)
 
 
+def test_a_task_begins_with_the_context_variables_where_it_is_started(agent: Interpreter) -> None:
+    who: contextvars.ContextVar[str] = contextvars.ContextVar("who", default="nobody")
+    agent.primitive(name="who")(lambda: who.get())
+    agent.primitive(name="become")(lambda name: who.set(name) and None)
+    who.set("me")
+    text = """
+        (multiple-value-list
+          (task-net (a (become "another") (yield) (list (who) (nth-value 0 (task-net (c (who))))))
+                    (b (yield) (who))))"""
+    assert agent.eval(text) == [["another", "another"], "me"]
+    assert agent.eval("(list (who) (task-net (a (who))))") == ["me", "me"]
+
+
 # --- blocking calls ---------------------------------------------------------------------
 
 
