@@ -7,7 +7,7 @@ is room. Nothing here knows a terminal.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 from eslang.runtime.deadlock import phrase
 from eslang.runtime.story import Place
@@ -20,6 +20,13 @@ SLEEPS = ("sleep", "period")
 ALIVE = "●"
 MARKS = {"SUCCEEDED": "✓", "FAILED": "✗", "ABORTED": "⊘"}
 HUES = {"✓": "32", "✗": "31", "⊘": "2", "○": "33", "↻": "33", ALIVE: "36"}
+
+
+class Awaited(NamedTuple):
+    """What a wait is for, as an event tells it."""
+
+    kind: str
+    of: Any
 
 
 class Seen:
@@ -87,7 +94,8 @@ class WatchTree:
         """The task whose turn it is begins to wait."""
         seen = self.of(event.task)
         sleeps = told["on"] in SLEEPS
-        words = "sleeps" if sleeps else f"waits for {phrase(event.task.wait)}"
+        awaited: Any = Awaited(told["on"], told["of"])
+        words = "sleeps" if sleeps else f"waits for {phrase(awaited)}"
         seen.layers.append((told["on"], words, event.time + told["of"] if sleeps else 0.0))
         seen.place = short(event.form)
 

@@ -15,6 +15,9 @@ RESCUE = """
   (with-recovery-procedures ((:slipped :retries 2 (sleep 1) (retry)))
     (sleep 2)
     (fail :slipped "left hand" 3)))
+(defun battery () (sleep 4))
+(defun radio () (sleep 5) :radio)
+(defun laser () (sleep 2) :laser)
 (with-recovery-procedures ((:general-failure (abort :gave-up)))
   (task-net
     (watcher (wait-for-events cup-seen)
@@ -22,8 +25,8 @@ RESCUE = """
              (with-cleanup-procedure (princ "cleaning ") (sleep 100)))
     (camera (sleep 1) (signal cup-seen :left 3) (with-deadline (5) (loop (sleep 1))))
     (arm (checkpoint-wait watcher :ready) (fetch))
-    (guarded (with-guardian (sleep 4) (princ "alarm ") (sleep 20)))
-    (either (or-parallel (progn (sleep 5) :radio) (progn (sleep 2) :laser)))))
+    (guarded (with-guardian (battery) (princ "alarm ") (sleep 20)))
+    (either (or-parallel (radio) (laser)))))
 """
 EVERY_KIND = """
 (defvar *up* nil)
