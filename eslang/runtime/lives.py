@@ -60,22 +60,25 @@ class Lives:
         parent: Task | None = None,
         on_end: Callable[[Task], None] | None = None,
     ) -> Task:
-        """A new task, which begins with the dynamic bindings of the current one."""
+        """A new task."""
         known = self._names.get(name, 0) + 1
         self._names[name] = known
         task = Task(name if known == 1 else f"{name}.{known}", body, parent)
         task.on_end = on_end
         task.source = self.scheduler.ticks.make()
-        task.dynamic.logical = self.session.dynamic.logical
-        if self.session.bindings.hidden is not None:
-            task.kept = self.session.bindings.copy(), 0
         variables = sys.modules.get("_contextvars")
         if variables is not None:  # Python's, for the primitives
             task.surroundings = variables.copy_context()
         return task
 
     def start(self, task: Task, role: str) -> None:
-        """Let TASK, which belongs to its parent or else to the run, have its first turn."""
+        """Let TASK, which belongs to its parent or else to the run, have its first turn.
+
+        It begins with the dynamic bindings of the current task.
+        """
+        task.dynamic.logical = self.session.dynamic.logical
+        if self.session.bindings.hidden is not None:
+            task.kept = self.session.bindings.copy(), 0
         owner = task.parent
         self.count += 1
         if owner is None:

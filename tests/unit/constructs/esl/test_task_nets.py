@@ -211,3 +211,12 @@ def test_what_or_parallel_aborts_is_no_failure() -> None:
     (print (task-status *other*))
     """
     assert lines_of(text) == [":FIRST", ":ABORTED"]
+
+
+def test_identifiers_may_be_special_variables() -> None:
+    text = """
+    (defvar t2 nil)
+    (task-net (t1 (checkpoint-wait t2 :cp) (print :t1))
+              (t2 (checkpoint :cp) (print :t2)))
+    """
+    assert lines_of(text) == [":T2", ":T1"]
