@@ -7,6 +7,8 @@ from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
 from eslang.base.hints import Any, Callable
 
+QUIT = "quit"  # the reason of a Stop that the plan itself wanted
+
 
 def to_the_end(interp: Any, work: Callable[[], object]) -> None:
     """Do WORK, then wait for what it has spawned; a failure that nobody saw is raised.

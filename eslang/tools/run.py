@@ -12,14 +12,13 @@ from eslang.base.control import Stop
 from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
 from eslang.base.hints import Any, Callable
-from eslang.tools.endings import to_the_end
+from eslang.tools.endings import QUIT, to_the_end
 from eslang.tools.interrupts import Interrupts, Turns
 from eslang.tools.narrator import narrate
 from eslang.tools.opening import Opened, OutputClosed, limit_of, readable
 from eslang.tools.options import Chosen, Usage
 
 FAILED, WRONG = 1, 65
-QUIT = "quit"  # the reason of a Stop that the plan itself wanted
 
 
 def run(chosen: Chosen) -> int:
@@ -29,10 +28,16 @@ def run(chosen: Chosen) -> int:
     for path in chosen.words:
         readable(path)
     limit = limit_of(chosen)
-    with Opened(chosen, None if chosen.has("quiet") else narrate) as interp:
+    opened = Opened(chosen, None if chosen.has("quiet") else narrate)
+    with opened as interp:
         with Interrupts(interp, limit) as interrupts, Turns(interp):
-            code = outcome(interp, lambda: to_the_end(interp, lambda: plan(interp, chosen)))
+            code = outcome(interp, lambda: opened.shown(lambda: whole(interp, chosen)))
         return code if interrupts.code is None else interrupts.code
+
+
+def whole(interp: Any, chosen: Chosen) -> None:
+    """The plan, and then what it has spawned, to the end."""
+    to_the_end(interp, lambda: plan(interp, chosen))
 
 
 def plan(interp: Any, chosen: Chosen) -> None:
