@@ -79,13 +79,6 @@ class Scheduler:
             task.queued = True
             self.ready.append(task)
 
-    def make_first(self, task: Task) -> None:
-        """Let TASK have the next turn."""
-        self.make_ready(task)
-        if task.queued and self.ready[0] is not task:
-            self.ready.remove(task)
-            self.ready.appendleft(task)
-
     def pause(self, task: Task) -> None:
         """Let others have their turns, until it is that of TASK, the current one, again.
 
@@ -240,8 +233,7 @@ class Scheduler:
             stop = self.stop_run()
             if task.dynamic.masked:
                 task.ending = stop
-        if self.between is not None:
-            self.turns = 0
+        self.turns = 0  # the driver looks at clock and posts
         if not task.dynamic.masked and (
             self.ready or self.watching or self.timers or self.between or not self.posted.empty()
         ):

@@ -20,7 +20,8 @@ PLANS = {
     "lenient-net": """
         (multiple-value-list
           (task-net :allow-failures
-            (a (sleep 1) :a) (b (cleaned (sleep 1) (fail :b))) (c (task-net (d (fail :d)) (e (sleep 5))))))""",
+            (a (sleep 1) :a) (b (cleaned (sleep 1) (fail :b))) (c (task-net (d (fail :d)) (e
+                (sleep 5))))))""",
     "race": """
         (or-parallel (cleaned (fail :loser) (sleep 5) 1)
                      (progn (sleep 1) (protected (sleep 1) (sleep 0.5)) (values 2 3))
@@ -60,13 +61,15 @@ PLANS = {
           (sleep 0.5)
           (interrupt-task sleeper (lambda () (note :one) (sleep 0.5)))
           (interrupt-task sleeper (lambda () (note :two)))
-          (without-interrupts (interrupt-task (current-task) (lambda () (note :mine))) (sleep 1) (note :not-yet))
+          (without-interrupts (interrupt-task (current-task) (lambda () (note :mine))) (sleep 1)
+              (note :not-yet))
           (wait-for-task sleeper))""",
     "recoveries": """
         (with-recovery-procedures ((:a :retries 2 (task-net (x (sleep 1)) (y (sleep 0.5))) (retry))
                                    (:a (cleaned (sleep 1) (sleep 0.5)) (abort :end)))
           (task-net (n (cleaned (sleep 0.5) (sleep 0.5) (let ((*d* 4)) (yield) (here 4) (fail :a))))
-                    (m (cleaned (with-recovery-procedures (:b (abort 1)) (sleep 0.5) (fail :b)) (sleep 8)))))""",
+                    (m (cleaned (with-recovery-procedures (:b (abort 1)) (sleep 0.5) (fail :b))
+                        (sleep 8)))))""",
     "loops": """
         (task-net (a (dotimes (i 6000) i) (note :a))
                   (b (let ((n 0)) (periodically 1 (if (= (incf n) 3) (return n)) (sleep 0.5))))

@@ -35,6 +35,7 @@ class Run:
     def begin(self) -> None:
         """Forget what came of the plan before."""
         self.notes: list[tuple[Any, ...]] = []
+        self.lines: list[str] = []  # the notes, each with its time
         self.told: list[str] = []
         self.tasks: list[Any] = []
         self.heard = 0
@@ -51,6 +52,7 @@ class Run:
         if injection is not None:
             injection(self)
         self.notes.append(tuple(str(word) for word in words))
+        self.lines.append(" ".join([f"{self.interp.clock.now():g}", *self.notes[-1]]))
 
     def through(self, function: Any) -> Any:
         """Call back."""
@@ -101,6 +103,16 @@ class Run:
             self.outcome += f" {failure}"
         except Stop as stop:
             self.outcome += f" stopped: {stop.reason}"
+
+
+def trace_of(plan: str, **given: Any) -> list[str]:
+    """What PLAN notes, each with its time, and what came of it. Nothing may be left of it."""
+    from trees.remains import remains
+
+    run = Run(**given).evaluate(plan)
+    left = remains(run)
+    assert not left, left
+    return [*run.lines, run.outcome.removesuffix(" None").strip()]
 
 
 def abort(number: int) -> Injection:
