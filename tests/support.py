@@ -34,6 +34,7 @@ def run(
     """Run TEXT form by form in a new interpreter on virtual time; what came of it (expectations.Came)."""
     from eslang.base.spans import Source
     from eslang.interpreter import Interpreter
+    from eslang.tools.endings import to_the_end
     from eslang.tools.expectations import Came
 
     written, came = StringIO(), Came()
@@ -45,7 +46,7 @@ def run(
             interp.evaluate(reading)
 
     with interp:
-        came.of(evaluate_all)
+        came.of(lambda: to_the_end(interp, evaluate_all))
     came.output = written.getvalue()
     return came
 

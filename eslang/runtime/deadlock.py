@@ -111,6 +111,8 @@ def phrase(wait: Wait) -> str:
             return "the end of " + ", ".join([task.name for task in awaited(wait)])
         case "sleep":
             return f"{shown(of)} seconds to pass"
+        case "period":
+            return "the next period"
         case "condition":
             return f"the condition {shown(of)}"
     return f"{of}" if of is not None else wait.kind

@@ -1,9 +1,10 @@
 """A conversation with one interpreter, as at the papers' prompt.
 
 A text comes in; each form of it is answered by its values, one a line, by the
-papers' lines for a failure, or by a diagnostic. The prompt (repl.py) and the
-replay of transcripts (transcript.py) are both this conversation, so that what
-a transcript shows is what a person sees. Nothing here knows a terminal.
+papers' lines for a failure, or by a diagnostic. The tasks that it has spawned
+go on for a moment before the next one. The prompt (repl.py) and the replay of
+transcripts (transcript.py) are both this conversation, so that what a
+transcript shows is what a person sees. Nothing here knows a terminal.
 """
 
 from __future__ import annotations
@@ -19,10 +20,14 @@ from eslang.base.render import render
 from eslang.base.spans import Source, Span
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.lisp.output import shown
+from eslang.tools.census import Census
+from eslang.tools.endings import QUIT
+from eslang.tools.interrupts import INTERRUPTED
+from eslang.tools.meanwhile import Meanwhile, Rest
 from eslang.tools.report import bug_report, remark
+from eslang.tools.words import WORDS, Leave
 
 PROMPT = "? "
-INTERRUPTED = 130
 
 
 class Writes(Protocol):
@@ -30,14 +35,6 @@ class Writes(Protocol):
 
     def write(self, text: str, /) -> object:
         """Write TEXT."""
-
-
-class Leave(Exception):
-    """The conversation is over; the code is the one to exit with."""
-
-    def __init__(self, code: int) -> None:
-        super().__init__(code)
-        self.code = code
 
 
 class Conversation:
@@ -55,7 +52,8 @@ class Conversation:
         self.prompted = False  # the prompt stands there, waiting
         self.failure: Failure | None = None  # the last one that nothing answered
         self.mistakes = 0  # forms that were no right program
-        self.said: dict[Keyword, Callable[[Conversation], None]] = {}  # :why and its like
+        self.census = Census(interp)
+        self.meanwhile = Meanwhile(interp)
         self.history = History(interp.image)
 
     def prompt(self) -> None:
@@ -92,10 +90,18 @@ class Conversation:
             if reading is None:
                 return ""
             start, done = extent(text, reading.span)
+            word = WORDS.get(reading.form) if isinstance(reading.form, Keyword) else None
+            if word is not None and word.takes_name:
+                done = end_of_line(text, done)
             if self.echo:
                 self.show(text[start:done])
-            if not self.answer(reading):
+            if word is not None:
+                word.answer(self, text[start:done].partition(" ")[2].strip())
+            elif not self.answer(reading):
                 return ""
+            self.settle()
+            if word is not None and word.takes_name:
+                return self.hear(text[done:], last=last)
 
     def refuse(self, text: str, error: EslError) -> None:
         """Say that TEXT cannot be read."""
@@ -112,13 +118,11 @@ class Conversation:
     def answer(self, reading: Any) -> bool:
         """Evaluate one form and print what comes of it; false if it was interrupted."""
         form = reading.form
-        if isinstance(form, Keyword) and form in self.said:
-            self.said[form](self)
-            return True
         self.history.begin(form)
         try:
             values = self.interp.evaluate(reading)
         except Failure as failure:
+            self.note_fallen()
             self.failure = failure  # the narrator has spoken
             if self.remarks:
                 self.write_error(remark(failure, self.interp))
@@ -142,9 +146,43 @@ class Conversation:
         with self.interp.at_work():
             self.output.write(shown(value) + "\n")
 
+    def settle(self) -> None:
+        """Let the tasks that forms have spawned go on for a moment."""
+        try:
+            self.meanwhile.settle()
+        except Stop as stop:
+            self.stopped(stop)
+        self.output.fresh_line()
+        self.note_fallen()
+
+    def go_on(self, done: Callable[[], bool], rest: Rest) -> None:
+        """Let tasks go on until DONE; where all wait, REST."""
+        try:
+            self.meanwhile.go_on(done, rest)
+        except Stop as stop:
+            self.stopped(stop)
+        self.note_fallen()
+
+    def burst(self, is_over: Callable[[], bool]) -> float | None:
+        """Let tasks go on until IS_OVER, or all wait; the seconds until one goes on by itself."""
+        try:
+            return self.meanwhile.burst(is_over)
+        except Stop as stop:
+            self.stopped(stop)
+            return 0.0
+        finally:
+            self.note_fallen()
+
+    def note_fallen(self) -> None:
+        """Remember, and remark, that tasks have failed whose failures the narrator has told."""
+        for task in self.census.take_fallen():
+            self.failure = task.failure
+            if self.remarks:
+                self.write_error(f"; task {task.name} has failed; :why tells more")
+
     def stopped(self, stop: Stop) -> None:
-        """The evaluation was ended from outside, or by (quit)."""
-        if stop.code != INTERRUPTED:
+        """What runs was ended from outside, or by (quit)."""
+        if stop.reason == QUIT or stop.code != INTERRUPTED:
             raise Leave(stop.code)
         self.output.fresh_line()
         self.output.write("Aborted\n")
@@ -196,6 +234,13 @@ def source_of(text: str, name: str) -> Source:
     from eslang.base.decoding import decode
 
     return decode(text.encode("utf-8", "surrogateescape"), name)
+
+
+def end_of_line(text: str, start: int) -> int:
+    """Where in TEXT the line ends that START stands in, or the remark at its end begins."""
+    end = text.find("\n", start)
+    line = text[start:] if end < 0 else text[start:end]
+    return start + len(line.partition(";")[0].rstrip())
 
 
 def extent(text: str, span: Span) -> tuple[int, int]:

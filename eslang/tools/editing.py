@@ -3,17 +3,21 @@
 Enter ends what is complete, by the reader's judgement, and else begins a new,
 indented line. Tab completes names and shows their signatures; the toolbar
 shows the signature of the operator at hand. What was typed is remembered from
-session to session, where it can be written.
+session to session, where it can be written. While a person types, tasks go on
+in short bursts, and what they write appears above the prompt.
 """
 
 from __future__ import annotations
 
+import asyncio
 import os
-from collections.abc import Iterable
+import sys
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 from prompt_toolkit import PromptSession
+from prompt_toolkit.application import run_in_terminal
 from prompt_toolkit.completion import CompleteEvent, Completer, Completion
 from prompt_toolkit.document import Document
 from prompt_toolkit.formatted_text import StyleAndTextTuples
@@ -25,8 +29,16 @@ from prompt_toolkit.styles import Style
 
 from eslang.base.diagnostics import EslError, IncompleteInput
 from eslang.base.spans import Source
+from eslang.tools.conversation import PROMPT, Conversation
 from eslang.tools.names import known_names, signature_of
+from eslang.tools.opening import Outlet
 from eslang.tools.tokens import incomplete_word, indentation, open_lists, tokens
+from eslang.tools.words import WORDS
+
+BURST = 0.02  # seconds that tasks go on between two looks at the keys
+POLL = 0.05  # seconds between two looks at what goes on outside
+LONG = 3600.0
+NAMED = [str(name).lower() for name, word in WORDS.items() if word.takes_name]
 
 STYLE = Style.from_dict(
     {
@@ -49,13 +61,15 @@ STYLE = Style.from_dict(
 class Editor:
     """Reads what a person types, one complete text at a time."""
 
-    def __init__(self, interp: Any, prompt: str) -> None:
-        self.interp = interp
+    def __init__(self, conversation: Conversation, outlet: Outlet) -> None:
+        self.conversation = conversation
+        self.interp = interp = conversation.interp
+        self.outlet = outlet
         self.session: PromptSession[str] = PromptSession(
-            prompt,
+            PROMPT,
             multiline=True,
             lexer=TokenLexer(),
-            completer=NameCompleter(interp),
+            completer=NameCompleter(conversation),
             complete_while_typing=False,
             history=history(),
             key_bindings=keys(interp),
@@ -66,12 +80,68 @@ class Editor:
         )
 
     def read(self) -> str:
-        """The next text; EOFError at Ctrl-D, KeyboardInterrupt at Ctrl-C."""
-        return self.session.prompt()
+        """The next text; EOFError at Ctrl-D, KeyboardInterrupt at Ctrl-C. Raises Leave if a task quits."""
+        return asyncio.run(self._read())
+
+    async def _read(self) -> str:
+        """The same; what tasks write meanwhile is kept until it can be shown."""
+        above = Above(self.outlet.stream)
+        conversation, errors = self.conversation, sys.stderr
+        self.outlet.stream = conversation.errors = sys.stderr = above  # type: ignore[assignment]
+        tasks = asyncio.ensure_future(self._go_on(above))
+        try:
+            return await self.session.prompt_async()
+        finally:
+            tasks.cancel()
+            await asyncio.wait([tasks])
+            self.interp.output.fresh_line()
+            self.outlet.stream, conversation.errors, sys.stderr = above.stream, errors, errors
+            above.show()
+
+    async def _go_on(self, above: Above) -> None:
+        """Let tasks go on, for as long as somebody types; if one quits, so does the editor."""
+        loop = asyncio.get_running_loop()
+        scheduler = self.interp.scheduler
+        try:
+            while True:
+                end = loop.time() + BURST
+                pause = self.conversation.burst(lambda end=end: loop.time() >= end)  # type: ignore[misc]
+                if pause != 0:
+                    self.interp.output.fresh_line()
+                if above.has_lines:
+                    await run_in_terminal(above.show)
+                longest = POLL if scheduler.outside else LONG
+                await asyncio.sleep(longest if pause is None else min(pause, longest))
+        except Exception as reason:
+            self.session.app.exit(exception=reason)
 
     def toolbar(self) -> str | None:
         """The signature of the operator whose arguments are being typed."""
         return signature_at(self.interp, self.session.default_buffer.document.text_before_cursor)
+
+
+class Above:
+    """What is written while the prompt stands: it is to appear above it, in whole lines."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self.stream = stream
+        self.kept: list[str] = []
+        self.has_lines = False
+
+    def write(self, text: str) -> None:
+        """Keep TEXT."""
+        self.kept.append(text)
+        self.has_lines = self.has_lines or "\n" in text
+
+    def flush(self) -> None:
+        """It is shown when the prompt can make way."""
+
+    def show(self) -> None:
+        """Write the lines that are whole."""
+        lines, newline, rest = "".join(self.kept).rpartition("\n")
+        self.stream.write(lines + newline)
+        self.stream.flush()
+        self.kept, self.has_lines = [rest], False
 
 
 def signature_at(interp: Any, before: str) -> str | None:
@@ -131,21 +201,28 @@ class TokenLexer(Lexer):
 
 
 class NameCompleter(Completer):
-    """Completes names that mean something in the current package, with their signatures."""
+    """Completes names that mean something in the current package, the prompt's own words, and tasks."""
 
-    def __init__(self, interp: Any) -> None:
-        self.interp = interp
+    def __init__(self, conversation: Conversation) -> None:
+        self.conversation = conversation
 
     def get_completions(self, document: Document, event: CompleteEvent) -> Iterable[Completion]:
         """The names that begin with the word before the cursor."""
-        word = incomplete_word(document.text_before_cursor)
-        if not word:
-            return
-        upper = word != word.lower()
-        for name, meta in known_names(self.interp):
+        before = document.text_before_cursor
+        word = incomplete_word(before)
+        for name, meta in self.candidates(before[: len(before) - len(word)].strip().lower(), word):
             if name.startswith(word.upper()):
-                shown = name if upper else name.lower()
+                shown = name if word != word.lower() else name.lower()
                 yield Completion(shown, start_position=-len(word), display_meta=meta)
+
+    def candidates(self, before: str, word: str) -> Iterator[tuple[str, str]]:
+        """What may stand behind the text BEFORE and begin with WORD, with a remark on each."""
+        if before in NAMED:
+            yield from [(name.upper(), "") for name in self.conversation.census.names()]
+        elif word.startswith(":") and not before:
+            yield from [(str(name), "") for name in WORDS]
+        elif word:
+            yield from known_names(self.conversation.interp)
 
 
 class KeptHistory(FileHistory):

@@ -23,12 +23,20 @@ ENTRY = (lambda: None).__code__.co_code[0]  # the instruction at which every fun
 
 
 class Interrupts:
-    """While entered, Ctrl-C and the time limit ask the interpreter to stop; `code` is who asked."""
+    """While entered, Ctrl-C and the time limit ask the interpreter to stop; `code` is who asked.
 
-    def __init__(self, interp: Any, limit: float | None = None, patience: int = 1) -> None:
+    At a prompt they are gentle: between two forms the first Ctrl-C is not
+    meant for the tasks that go on; it only wakes who is RESTING.
+    """
+
+    def __init__(
+        self, interp: Any, limit: float | None = None, patience: int = 1, *, gentle: bool = False
+    ) -> None:
         self.interp = interp
         self.limit = limit
         self.patience = patience  # requests after which the next one ends the command at once
+        self.gentle = gentle
+        self.resting = False
         self.asked = 0
         self.code: int | None = None
         self._before: Any = None
@@ -57,7 +65,10 @@ class Interrupts:
             leave_at_once(reason, self.code or code)
         self.asked += 1
         self.code = code
-        self.interp.interrupt(reason, code)
+        if not self.gentle or self.asked > 1 or self.interp.runs.root is not None:
+            self.interp.interrupt(reason, code)
+        elif self.resting:
+            raise KeyboardInterrupt
 
 
 class Turns:

@@ -15,6 +15,7 @@ from eslang.base.failure import Failure
 from eslang.base.printer import prin1
 from eslang.base.render import render
 from eslang.base.symbols import Keyword, Symbol
+from eslang.tools.endings import to_the_end
 from eslang.tools.expectations import Came, Expected, troubles
 from eslang.tools.markdown import block_troubles, page_entries, read_page
 from eslang.tools.opening import readable, seed_of
@@ -130,7 +131,7 @@ def program_results(path: Path, bench: Bench) -> Iterator[Result]:
     expected = Expected(path.read_text(encoding="utf-8", errors="replace"))
     came = Came()
     with bench.stage(came) as stage:
-        came.of(lambda: stage.interp.load(str(path)))
+        came.of(lambda: to_the_end(stage.interp, lambda: stage.interp.load(str(path))))
         came.output = stage.take()
         names = test_names(stage)
     if expected:
@@ -158,7 +159,7 @@ def deftest_troubles(path: Path, name: Symbol, bench: Bench) -> list[str]:
                 double.install()  # the file may have defined what the double stands in for
             stage.interp.call("esl::%run-test", name)
 
-        return test_troubles(came.of(run))
+        return test_troubles(came.of(lambda: to_the_end(stage.interp, run)))
 
 
 def test_troubles(came: Came) -> list[str]:

@@ -10,12 +10,14 @@ of an answer, are not compared; everything else is, to the letter.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from io import StringIO
 from typing import Any, NamedTuple
 
 from eslang.tools.conversation import PROMPT, Conversation
 from eslang.tools.narrator import narrate
 from eslang.tools.tokens import Balance
+from eslang.tools.words import Leave
 
 
 class Entry(NamedTuple):
@@ -106,7 +108,8 @@ class Stage:
         from eslang.interpreter import Interpreter
 
         self.written = StringIO()
-        self.interp: Any = Interpreter(seed=seed, clock="virtual", output=self.written, listeners=[listener])
+        self.interp: Any = Interpreter(seed=seed, clock="virtual", output=self.written)
+        self.interp.hooks.speakers.append(listener)
         self.conversation = Conversation(self.interp)
 
     def __enter__(self) -> Stage:
@@ -117,7 +120,8 @@ class Stage:
 
     def answer_to(self, form: str) -> str:
         """What FORM is answered with."""
-        self.conversation.hear(form + "\n", last=True)
+        with suppress(Leave):
+            self.conversation.hear(form + "\n", last=True)
         return self.take()
 
     def take(self) -> str:
