@@ -15,6 +15,7 @@ from eslang.base.suggest import nearest
 from eslang.base.symbols import Keyword, Symbol
 from eslang.compile.registry import Definition
 from eslang.constructs.esl.documentation import documentation_text
+from eslang.runtime.kinds import TABLE
 from eslang.tools.names import find_symbol, known_names
 from eslang.tools.options import COMMANDS, Chosen, Usage, help_text, overview
 
@@ -50,7 +51,20 @@ PAGES = (
         "The command",
         "This page is what `esl --help` and its like print.\n"
         "How to use the command: [run a plan](../how-to/run-a-plan.md), "
-        "[talk at the prompt](../how-to/talk-at-the-prompt.md), [test a plan](../how-to/test-a-plan.md).",
+        "[trace a run](../how-to/trace-a-run.md), [talk at the prompt](../how-to/talk-at-the-prompt.md), "
+        "[test a plan](../how-to/test-a-plan.md).",
+        (),
+    ),
+    Page(
+        "events.md",
+        "What listeners hear",
+        "A listener is a callable that gets every event of an interpreter: "
+        "`Interpreter(listeners=[listener])`, or `agent.hooks.listeners.append(listener)`.\n"
+        "An event has a `kind`; the `time` on the interpreter's clock; the `task` whose turn it is, or None; "
+        "the `form`, a place in the source (`file`, `line`, `column`) or None; and its parts, in `data`.\n"
+        "`esl run --trace FILE` writes the same, one JSON object a line, with the parts beside the others "
+        "([how it looks](../how-to/trace-a-run.md#the-file)).\n"
+        "This page is made from the table in `eslang/runtime/kinds.py`.",
         (),
     ),
 )
@@ -104,7 +118,9 @@ def definitions(interp: Any, package: str) -> list[Definition]:
 def page_text(interp: Any, page: Page) -> str:
     """The text of PAGE, as it should stand in docs/reference."""
     lines = [f"# {page.title}", "", page.opening, ""]
-    if not page.packages:
+    if page.file == "events.md":
+        lines += event_lines()
+    elif not page.packages:
         lines += command_lines()
     for package in page.packages:
         if package == "COMMON-LISP":
@@ -127,6 +143,19 @@ def command_lines() -> Iterator[str]:
             "```",
             "",
         )
+
+
+def event_lines() -> Iterator[str]:
+    """The sections of the page about events."""
+    for kind in TABLE:
+        yield from (f"## {kind.name}", "", f"Told when {kind.when}.")
+        yield f"Its form is {kind.form}." if kind.form != "none" else "It has no form."
+        if kind.parts:
+            yield from ("", "| part | type | what it is |", "|---|---|---|")
+            for part in kind.parts:
+                kept = part.type.replace("|", "\\|")
+                yield f"| `{part.name}` | `{kept}` | {part.meaning} |"
+        yield ""
 
 
 def construct_lines(definition: Definition) -> Iterator[str]:
