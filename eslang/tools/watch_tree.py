@@ -15,7 +15,7 @@ from eslang.runtime.tasks import Task
 from eslang.tools.report import failure_text
 
 FAILED_SHARE = 4  # one line in so many is for tasks that failed, if there are so many
-KEPT = 500  # tasks that have ended
+KEPT = 400  # tasks that have ended, and as many that failed
 SLEEPS = ("sleep", "period")
 ALIVE = "●"
 MARKS = {"SUCCEEDED": "✓", "FAILED": "✗", "ABORTED": "⊘"}
@@ -52,6 +52,7 @@ class WatchTree:
     def __init__(self) -> None:
         self.tasks: dict[str, Seen] = {}
         self.ended: dict[str, None] = {}  # in the order in which they did
+        self.failed: dict[str, None] = {}  # likewise, those that failed
         self.counts: dict[str, int] = {}  # how many ended how
         self.last_failure = ""
         self._order = 0
@@ -85,10 +86,12 @@ class WatchTree:
         if told["failure"] is not None:
             seen.failed = failure_text(told["failure"])
         self.counts[seen.status] = self.counts.get(seen.status, 0) + 1
-        self.ended[seen.name] = None
-        if len(self.ended) > KEPT:
-            oldest = next(iter(self.ended))
-            del self.ended[oldest], self.tasks[oldest]
+        for group, fits in ((self.failed, seen.failed), (self.ended, not seen.failed)):
+            if fits:
+                group[seen.name] = None
+            if len(group) > KEPT:
+                oldest = next(iter(group))
+                del group[oldest], self.tasks[oldest]
 
     def wait(self, event: Any, told: dict[str, Any]) -> None:
         """The task whose turn it is begins to wait."""
@@ -147,7 +150,7 @@ class WatchTree:
             children.setdefault(parent, []).append(seen)
         found = [(mark(seen), stem + seen.name, words(seen, now)) for stem, seen in branches(children)]
         left = len(self.tasks) - len(chosen)
-        gone = sum(self.counts.values()) - len(self.ended)
+        gone = sum(self.counts.values()) - len(self.ended) - len(self.failed)
         if left or gone:
             waiting = sum(
                 1 for seen in self.tasks.values() if seen.status is None and seen.name not in chosen

@@ -20,6 +20,7 @@ const LEGEND = [
   ["arrow", "failure", "failure passed on"], ["arrow", "interrupt", "interrupts"], ["arrow", "abort", "aborts"],
   ["arrow", "start", "starts"], ["arrow", "join", "end awaited"], ["mark", "failure", "failure"],
   ["mark", "recovery", "recovery"], ["mark", "signal", "signal"], ["mark", "checkpoint", "checkpoint"],
+  ["mark", "failure-passed", "failure of another"], ["mark", "period-missed", "period missed"], ["mark", "run-stopped", "run stopped"],
   ["mark", "goal", "goal"], ["end", "succeeded", "succeeded"], ["end", "aborted", "aborted"],
 ];
 const state = { scale: "balanced", from: 0, to: 1, hover: null, chosen: null, off: new Set(), shut: new Set(), find: "", row: 26 };
