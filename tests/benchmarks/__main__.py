@@ -1,6 +1,6 @@
 """`python -m tests.benchmarks [ROUNDS] [NAME...]`: measure, and print one table.
 
-NAME is compute, recovery, starting or reading; without one, all are measured.
+NAME is one of ROOMS; without one, all are measured.
 """
 
 from __future__ import annotations
@@ -8,10 +8,18 @@ from __future__ import annotations
 import platform
 import sys
 
-from tests.benchmarks import compute, reading, recovery, starting
+from tests.benchmarks import compute, crowds, memory, reading, recovery, starting, tasks
 from tests.benchmarks.measure import Row, measure
 
-ROOMS = {"compute": compute, "recovery": recovery, "starting": starting, "reading": reading}
+ROOMS = {
+    "compute": compute,
+    "recovery": recovery,
+    "tasks": tasks,
+    "crowds": crowds,
+    "memory": memory,
+    "starting": starting,
+    "reading": reading,
+}
 HEAD = ("work", "against", "eslang", "the other", "ratio", "at most", "")
 
 
@@ -22,7 +30,7 @@ def main(words: list[str]) -> int:
     rows: list[Row] = []
     for name in words or ROOMS:
         for work in ROOMS[name].works():
-            rows += measure(work, rounds)
+            rows += [work] if isinstance(work, Row) else measure(work, rounds)
     sys.stdout.write(f"Python {platform.python_version()}, medians of {rounds} interleaved rounds\n\n")
     sys.stdout.write(table(rows) + "\n")
     return 1 if any(row.verdict.startswith("missed") for row in rows) else 0
@@ -45,12 +53,17 @@ def cells_of(row: Row) -> tuple[str, ...]:
     return (
         row.work,
         row.peer,
-        duration(row.ours),
-        "" if row.theirs is None else duration(row.theirs),
+        amount(row.ours, row.unit),
+        "" if row.theirs is None else amount(row.theirs, row.unit),
         "" if row.ratio is None else f"{row.ratio:.2f} ×",
         "" if row.limit is None else f"{row.limit} ×",
         row.verdict,
     )
+
+
+def amount(number: float, unit: str) -> str:
+    """NUMBER of seconds, or of bytes, for people."""
+    return duration(number) if unit == "s" else f"{number / 1000:.3g} kB"
 
 
 def duration(seconds: float) -> str:

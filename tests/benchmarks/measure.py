@@ -35,6 +35,7 @@ class Work(NamedTuple):
     peers: Sequence[Peer]
     per: int = 1  # how often one call of `ours` does the work
     clock: Callable[[], float] = process_time  # what other processes take does not count
+    most: int = 1000  # rounds, where each takes long
 
 
 class Row(NamedTuple):
@@ -46,6 +47,7 @@ class Row(NamedTuple):
     theirs: float | None
     ratio: float | None  # how many times as long as the peer eslang takes, within one round
     limit: float | None
+    unit: str = "s"  # or "B", where memory is compared instead of time
 
     @property
     def verdict(self) -> str:
@@ -68,7 +70,7 @@ def measure(work: Work, rounds: int) -> list[Row]:
         raise AssertionError(f"{work.name}: the contenders disagree: {results}")
     counts = [repetitions(run, work.clock) for run, _ in runs]
     samples: list[list[float]] = [[] for _ in runs]
-    for _ in range(rounds):
+    for _ in range(min(rounds, work.most)):
         for number, (run, per) in enumerate(runs):
             samples[number].append(sample(run, counts[number], work.clock) / per)
     ours = samples[0]
@@ -82,6 +84,11 @@ def row(work: str, peer: Peer, ours: list[float], theirs: list[float] | None) ->
         return Row(work, peer.name, median(ours), None, None, peer.limit)
     ratio = median([one / other for one, other in zip(ours, theirs, strict=True)])
     return Row(work, peer.name, median(ours), median(theirs), ratio, peer.limit)
+
+
+def row_of_bytes(work: str, peer: str, ours: float, theirs: float | None, limit: float | None) -> Row:
+    """A row that compares memory."""
+    return Row(work, peer, ours, theirs, None if theirs is None else ours / theirs, limit, "B")
 
 
 def repetitions(run: Run, clock: Callable[[], float]) -> int:
