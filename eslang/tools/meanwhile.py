@@ -30,8 +30,8 @@ class Meanwhile:
     def is_quiet(self) -> bool:
         """True if no task has anything to do before a timer is due, or something comes from outside."""
         scheduler = self.interp.scheduler
-        watches = scheduler.watching and not scheduler.looking
-        return not scheduler.ready and not watches and bool(scheduler.posted.empty())
+        scheduler.look_again()
+        return not scheduler.ready and bool(scheduler.posted.empty())
 
     def burst(self, is_over: Callable[[], bool]) -> float | None:
         """Let tasks go on until IS_OVER, or all wait; the seconds until one goes on. Raises Stop."""

@@ -11,6 +11,7 @@ from prompt_toolkit.document import Document
 from prompt_toolkit.history import InMemoryHistory
 
 from eslang.interpreter import Interpreter
+from eslang.tools.conversation import Conversation
 from eslang.tools.editing import NameCompleter, TokenLexer, history, is_complete, signature_at
 
 
@@ -23,7 +24,7 @@ def fixture_interp() -> Iterator[Interpreter]:
 
 def completions(interp: Interpreter, text: str) -> dict[str, str]:
     """What TEXT can be completed to, and what is shown beside it."""
-    found = NameCompleter(interp).get_completions(Document(text), CompleteEvent())
+    found = NameCompleter(Conversation(interp)).get_completions(Document(text), CompleteEvent())
     return {completion.text: completion.display_meta_text for completion in found}
 
 

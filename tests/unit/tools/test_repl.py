@@ -28,7 +28,7 @@ def lines(text: str) -> list[str]:
 @pytest.mark.parametrize("path", TRANSCRIPTS, ids=lambda path: path.stem)
 def test_from_a_pipe_the_output_is_the_transcript_itself(path: Path) -> None:
     told = entries(path)
-    code, out, err = call(["repl"], stdin="".join(entry.form + "\n" for entry in told))
+    code, out, err = call(["repl", "--clock", "virtual"], stdin="".join(entry.form + "\n" for entry in told))
     expected = [(entry.form, lines("\n".join(entry.expected))) for entry in told]
     came = [(entry.form, lines("\n".join(entry.expected))) for entry in read_transcript(out)]
     assert (code, err) == (0, "")
@@ -38,7 +38,7 @@ def test_from_a_pipe_the_output_is_the_transcript_itself(path: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("path", TRANSCRIPTS, ids=lambda path: path.stem)
 def test_at_a_terminal_each_form_is_answered_as_in_the_transcript(path: Path, tmp_path: Path) -> None:
-    with Terminal([*PYTHON, "repl"], XDG_STATE_HOME=str(tmp_path)) as terminal:
+    with Terminal([*PYTHON, "repl", "--clock", "virtual"], XDG_STATE_HOME=str(tmp_path)) as terminal:
         terminal.until(r"\n\?")
         for entry in entries(path):
             terminal.type("\x1b[200~" + entry.form + "\x1b[201~\r")  # pasted, so that nothing is indented
