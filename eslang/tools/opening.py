@@ -99,7 +99,6 @@ class Opened:
         if self.tracer is not None:
             self.tracer.close(self.interp.clock.now())
 
-
     def shown(self, work: Callable[[], object]) -> None:
         """Do WORK; with `--watch`, show its tasks meanwhile."""
         if self.watch is None:
@@ -156,15 +155,22 @@ def tracer_of(chosen: Chosen, clock: str, seed: int) -> Any:
     path = chosen.value("trace")
     if path is None:
         return None
+    if any(word != "-" and os.path.realpath(word) == os.path.realpath(path) for word in chosen.words):
+        raise Usage(f"the trace would take the place of `{path}`")
     if path == "-" and chosen.command.name != "run":
         raise Usage("standard output is the prompt's: let `--trace` name a file")
     from eslang.tools.tracing import Tracer
 
     try:
-        stream = sys.stdout if path == "-" else open(path, "w", encoding="utf-8", buffering=1)  # noqa: SIM115
+        stream = sys.stdout if path == "-" else open_trace(path)
         return Tracer(stream, {"clock": clock, "seed": seed, "plans": chosen.words})
     except OSError as trouble:
         raise Usage(f"cannot write `{path}`: {reason(trouble)}") from None
+
+
+def open_trace(path: str) -> TextIO:
+    """The file PATH, to be written line by line; a character that cannot be is escaped, as JSON does it."""
+    return open(path, "w", encoding="utf-8", errors="backslashreplace", buffering=1)
 
 
 def readable(path: str) -> str:

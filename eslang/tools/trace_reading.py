@@ -81,7 +81,7 @@ def parsed(name: str, number: int, line: str) -> dict[str, Any]:
     """LINE as the object that it is to be."""
     try:
         found = json.loads(line)
-    except ValueError:
+    except (ValueError, RecursionError):
         found = None
     if not isinstance(found, dict) or not isinstance(found.get("kind"), str):
         if number == 1:

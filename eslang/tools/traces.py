@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import sys
 from pathlib import PurePath
@@ -85,6 +86,8 @@ def write(chosen: Chosen, text: str, ending: str, found: Trace) -> int:
     if path == "-":
         sys.stdout.write(text)
         return 0
+    if os.path.realpath(path) == os.path.realpath(found.name):
+        raise Usage(f"`{path}` is the trace itself; let `-o` name another file")
     try:
         with open(path, "w", encoding="utf-8") as stream:
             stream.write(text)

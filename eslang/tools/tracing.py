@@ -13,10 +13,12 @@ import sys
 from math import isfinite
 from typing import Any, TextIO
 
+from eslang.base.control import Failed
 from eslang.base.failure import Failure
 from eslang.base.lists import Cons
 from eslang.base.printer import WriteSettings, prin1
-from eslang.base.symbols import Value
+from eslang.base.running import running
+from eslang.base.symbols import Symbol, Value
 from eslang.base.text import String
 from eslang.runtime.deadlock import Waiting
 from eslang.runtime.events import Event
@@ -26,6 +28,7 @@ from eslang.runtime.tasks import Task
 FORMAT = 1
 BRIEFLY = WriteSettings(length=24, level=6)
 LONGEST = 400  # characters of a value's text
+LARGEST = 2**63  # of numbers that stand as such
 ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 encode = json.JSONEncoder(ensure_ascii=False).encode
 
@@ -74,7 +77,7 @@ class Tracer:
 
     def plain(self, value: Any) -> Any:
         """VALUE as JSON has it: numbers and strings as themselves, failures as parts, the rest printed."""
-        if value is None or isinstance(value, int):
+        if value is None or (isinstance(value, int) and abs(value) < LARGEST):
             return value
         if isinstance(value, (str, String)):
             return shortened(value if isinstance(value, str) else value.text)
@@ -116,11 +119,22 @@ class Tracer:
 
 def shown(value: Value) -> str:
     """The text of VALUE, not too long, and the same in every run."""
-    try:
-        text = prin1(value, BRIEFLY) if value.__class__ is Cons else prin1(value)
-    except Failure:
-        return "#<unprintable>"
+    if isinstance(value, Symbol) or running.session is None:
+        return prin1(value)
+    text = printed_apart(value, running.session.dynamic)
     return shortened(ADDRESS.sub("", text) if " at 0x" in text else text)
+
+
+def printed_apart(value: Value, dynamic: Any) -> str:
+    """The text of VALUE; a printer of the plan's own that fails does not disturb the plan."""
+    forms, quiet = dynamic.forms, dynamic.quiet
+    dynamic.forms, dynamic.quiet = None, True
+    try:
+        return prin1(value, BRIEFLY) if value.__class__ is Cons else prin1(value)
+    except (Exception, Failed):
+        return "#<unprintable>"
+    finally:
+        dynamic.forms, dynamic.quiet = forms, quiet
 
 
 def shortened(text: str) -> str:

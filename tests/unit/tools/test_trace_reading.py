@@ -60,6 +60,7 @@ def test_a_trace_of_another_version() -> None:
     [
         ("x", "this line is no event: 'x'"),
         ("{}", "this line is no event: '{}'"),
+        ("[" * 50_000, f"this line is no event: '{'[' * 40}'"),
         ('{"kind": "wait"}', "this event has no time"),
         ('{"kind": "wait", "time": "1"}', "this event has no time"),
         ('{"kind": "wait", "time": NaN}', "this event has no time"),

@@ -93,6 +93,36 @@ def test_a_long_value_is_cut() -> None:
     assert max(len(str(record)) for record in found) < LONGEST + 300
 
 
+def test_what_cannot_be_printed_does_not_disturb_the_plan() -> None:
+    text = """
+    (defstruct (odd (:print-function (lambda (odd stream depth) (fail :cannot-print)))) size)
+    (with-recovery-procedures ((:cannot-print (print :asked) (abort :disturbed)))
+      (signal (make-event) (make-odd)))
+    (signal (make-event) (expt 10 5000) (code-char 55296))
+    """
+    found = [record for record in records(text) if record["kind"] in ("signal", "recovery", "failure")]
+    assert [record["kind"] for record in found] == ["signal", "signal"]
+    assert found[0]["arguments"] == "#<unprintable>"
+
+
+def test_any_character_can_be_written(tmp_path: Path) -> None:
+    path = tmp_path / "run.jsonl"
+    form = "(signal (make-event) (make-string 2 :initial-element (code-char 55296)) (expt 10 5000))"
+    assert call(["run", "--trace", str(path), "-e", form]) == (0, "NIL\n", "")
+    assert call(["trace", str(path)]).code == 0
+
+
+def test_a_trace_does_not_take_the_place_of_its_plan(tmp_path: Path) -> None:
+    plan = tmp_path / "plan.esl"
+    plan.write_text("(print 1)")
+    code, _, err = call(["run", str(plan), "--trace", str(plan)])
+    assert (code, "would take the place" in err, plan.read_text()) == (2, True, "(print 1)")
+    trace = tmp_path / "run.html"
+    trace.write_text(written("1"))
+    code, _, err = call(["trace", "--html", str(trace)])
+    assert (code, "is the trace itself" in err, trace.read_text()) == (2, True, written("1"))
+
+
 def test_a_failure_that_was_passed_on_says_from_whom() -> None:
     found = records('(task-net (left (fail :no-power 3 "volt")))')
     assert found[-2]["failure"] == {"cause": ":NO-POWER", "arguments": [3, "volt"], "from": "left"}
