@@ -15,6 +15,8 @@ from eslang.base.symbols import Symbol, Value
 
 SEPARATOR = "\0"  # in a qualified name, between the name of a function and its number
 
+Shape = tuple[CodeType | None, tuple[int, ...]]  # a variant's code, and where it finds its cells
+
 
 class Code:
     """The global names of one text, and the variants of its functions by number."""
@@ -25,6 +27,7 @@ class Code:
         self.globals["%many"] = self.variant
         self.make_variants: Callable[[], dict[int, CodeType]] | None = None
         self.variants: dict[int, CodeType] = {}
+        self.shapes: dict[str, Shape] = {}  # of the variants that were wanted
 
     def load(self, code: CodeType) -> FunctionType:
         """The function of a top-level form's code."""
@@ -40,14 +43,25 @@ class Code:
 
     def variant(self, function: FunctionType) -> FunctionType:
         """The variant of FUNCTION, one of ours, that gives all its values."""
-        code = self.variant_code(int(function.__code__.co_qualname.partition(SEPARATOR)[2] or 0))
+        name = function.__code__.co_qualname
+        shape = self.shapes.get(name)
+        if shape is None:
+            shape = self.shapes[name] = self._shape(function.__code__)
+        code, places = shape
         if code is None:
             return function
-        cells = dict(zip(function.__code__.co_freevars, function.__closure__ or (), strict=True))
-        closure = tuple(cells[name] for name in code.co_freevars)
+        cells = function.__closure__
+        closure = tuple([cells[place] for place in places]) if cells is not None else ()
         variant = FunctionType(code, self.globals, function.__name__, function.__defaults__, closure)
         variant.__qualname__ = function.__qualname__
         return variant
+
+    def _shape(self, code: CodeType) -> Shape:
+        """What makes the variant of a function with CODE."""
+        made = self.variant_code(int(code.co_qualname.partition(SEPARATOR)[2] or 0))
+        if made is None:
+            return None, ()
+        return made, tuple([code.co_freevars.index(name) for name in made.co_freevars])
 
     def variant_code(self, number: int) -> CodeType | None:
         """The code of function NUMBER that gives all its values; None if it always gives one."""
