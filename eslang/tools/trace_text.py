@@ -191,7 +191,7 @@ def timeline(trace: Trace, lives: Lives, choice: Choice, columns: int) -> Iterat
     shown = chosen if choice.everything else abbreviated(chosen)
     lanes = Lanes(lives, shown)
     names = [subject(record) or "" for record in shown]
-    width = min(max(map(len, names)), 14)
+    width = min(max(map(len, names)), columns // 5 + 2)
     before = -1.0
     position = 0
     for record in shown:
@@ -215,7 +215,9 @@ def told(record: Record, width: int) -> list[str]:
     place = cut(short_place(record.form), width)
     lines = wrap(sentence(record), width)[:LINES] or [""]
     if place and len(lines[-1]) + 1 + len(place) > width:
-        lines.append("")
+        words, _, last = lines[-1].rpartition(" ")
+        fits = bool(words) and len(last) + 1 + len(place) <= width
+        lines[-1:] = [words, last] if fits else [lines[-1], ""]
     lines[-1] += f"{place:>{width - len(lines[-1])}}"
     return lines
 
