@@ -7,6 +7,7 @@ a view, which is what a snapshot is.
 
 from __future__ import annotations
 
+from eslang.base.calls import depth
 from eslang.base.hints import Any, Callable, Iterator
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.functions import ALL, FIRST, LAZY, Compiled, Question, compile_query
@@ -17,6 +18,7 @@ from eslang.facts.steps import Steps, may_repeat
 from eslang.facts.watching import Reads
 
 Solution = dict[Symbol, Value]
+DEEPEST = 1000  # queries that ask Lisp inside one another: generators use the C stack
 Call = Callable[[Symbol, list[Value]], bool]
 
 
@@ -58,7 +60,7 @@ class Plan:
     def all(self, constants: Constants) -> list[Solution]:
         """All solutions."""
         if self.tests:
-            return list(self.solutions(constants))
+            return self._on_view(ALL, constants)  # type: ignore[no-any-return]
         run = self.runner(ALL)
         self.run_all = None if self.is_fresh else run
         return run(*constants)  # type: ignore[no-any-return]
@@ -66,13 +68,27 @@ class Plan:
     def first(self, constants: Constants) -> Solution | None:
         """The first solution; None if there is none."""
         if self.tests:
-            solutions = self.solutions(constants)
-            found = next(solutions, None)
-            solutions.close()
-            return found
+            return self._on_view(FIRST, constants)  # type: ignore[no-any-return]
         run = self.runner(FIRST)
         self.run_first = None if self.is_fresh else run
         return run(*constants)  # type: ignore[no-any-return]
+
+    def _on_view(self, kind: str, constants: Constants, reads: Reads | None = None) -> Any:
+        """What answers when Lisp is asked, too, which may change the facts."""
+        compiled = self.functions(kind)
+        view = View(compiled.accesses)
+        readers = view.readers()
+        if reads is not None:
+            readers = reads.through(compiled.accesses, readers)
+        if depth[0] > DEEPEST:
+            view.close()
+            raise RecursionError("too many queries that ask Lisp inside one another")
+        depth[0] += 1
+        try:
+            return compiled.make(readers, self.call)(*constants)
+        finally:
+            depth[0] -= 1
+            view.close()
 
     def solutions(self, constants: Constants) -> Solutions:
         """The solutions of this moment, one at a time."""
@@ -82,20 +98,12 @@ class Plan:
 
     def noting(self, constants: Constants, reads: Reads) -> Solution | None:
         """The first solution, and in READS what was read to find it."""
-        compiled = self.functions(FIRST)
-        view = View(compiled.accesses) if self.tests else None
-        plain = view.readers() if view else [access.reader() for access in compiled.accesses]
-        readers = [
-            reads.reader(access, reader) for access, reader in zip(compiled.accesses, plain, strict=True)
-        ]
-        for access in compiled.accesses:
-            reads.note_rules(access.relation)
         reads.asked_lisp = reads.asked_lisp or bool(self.tests)
-        try:
-            return compiled.make(readers, self.call)(*constants)  # type: ignore[no-any-return]
-        finally:
-            if view:
-                view.close()
+        if self.tests:
+            return self._on_view(FIRST, constants, reads)  # type: ignore[no-any-return]
+        compiled = self.functions(FIRST)
+        readers = reads.through(compiled.accesses, [access.reader() for access in compiled.accesses])
+        return compiled.make(readers, self.call)(*constants)  # type: ignore[no-any-return]
 
 
 class Solutions:

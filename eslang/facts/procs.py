@@ -98,8 +98,8 @@ class Planner:
             raise proc.failure
         return proc
 
-    def _arranger(self) -> Arranger:
-        return Arranger(self.resolve, self.proc, self.constants)
+    def _arranger(self, about: Relation | None = None) -> Arranger:
+        return Arranger(self.resolve, self.proc, self.constants, about)
 
     def _clause(self, rule: Rule, positions: Positions) -> Clause:
         """How RULE answers when what stands at POSITIONS of its head is known."""
@@ -108,7 +108,7 @@ class Planner:
         head: Atom = _shifted(rule.head, offset)
         body = tuple(_shifted(goal, offset) for goal in rule.body.goals)
         bound: Bound = frozenset().union(*(variables_of(head.terms[place]) for place in positions))
-        arranger = self._arranger()
+        arranger = self._arranger(self.resolve(head))
         steps = arranger.arrange(body, bound)
         self._check_head(head, positions, _always_bound(steps, bound), arranger)
         return Clause(head, steps)

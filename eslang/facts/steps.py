@@ -71,7 +71,7 @@ class Branch(NamedTuple):
 Step = Look | Test | Absent | Present | Branch
 Steps = list[Step]
 
-GROUND, DECIDED, DETERMINED, JOINED, KNOWN, UNKNOWN = range(6)  # how promising a goal is
+GROUND, DECIDED, DETERMINED, JOINED, KNOWN, ITSELF, UNKNOWN = range(7)  # how promising a goal is
 
 
 class Arranger:
@@ -82,7 +82,9 @@ class Arranger:
         resolve: Callable[[Atom], Relation | None],
         rules: Callable[[Relation, Positions], Any],
         constants: Constants,
+        about: Relation | None = None,
     ) -> None:
+        self.about = about  # what the rule derives, if these are the goals of a rule
         self.resolve = resolve  # the relation that an atom is about; None: it is a test
         self.rules = rules  # the proc for a relation and positions, or None; fails where the rules cannot run
         self.constants = constants
@@ -165,7 +167,9 @@ class Arranger:
             return GROUND
         if relation.unique is not None and positions == relation.unique:
             return DETERMINED
-        return JOINED if joined and positions else KNOWN if positions else UNKNOWN
+        if positions:
+            return JOINED if joined else KNOWN
+        return ITSELF if relation is self.about and not bound else UNKNOWN
 
     def _is_decided(self, goal: Either, bound: Bound) -> bool:
         """Whether GOAL binds nothing and asks no rules, so that it is just true or not."""

@@ -202,19 +202,23 @@ class Store:
         if self._telling or not self._changes:
             return
         self._telling = True
-        try:
-            while self._changes:
-                told, self._changes = self._changes, []
-                woken: dict[Watch, Change] = {}
-                for relation, change in told:
-                    for subscriber in tuple(self.subscribers):
-                        subscriber(change)
-                    for watch in woken_by(relation, change.row):
-                        woken.setdefault(watch, change)
-                for watch, change in woken.items():
-                    watch.callback(change)
-        finally:
-            self._telling = False
+        trouble: list[BaseException] = []  # one who fails does not keep the others from hearing
+        while self._changes:
+            told, self._changes = self._changes, []
+            calls: list[tuple[Subscriber, Change]] = []
+            woken: dict[Watch, Change] = {}
+            for relation, change in told:
+                calls += [(subscriber, change) for subscriber in self.subscribers]
+                for watch in woken_by(relation, change.row):
+                    woken.setdefault(watch, change)
+            for call, change in (*calls, *((watch.callback, change) for watch, change in woken.items())):
+                try:
+                    call(change)
+                except BaseException as error:
+                    trouble.append(error)
+        self._telling = False
+        if trouble:
+            raise trouble[0]
 
 
 def _first_variable(term: Value) -> Symbol:

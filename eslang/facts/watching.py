@@ -43,8 +43,13 @@ class Reads:
         self.keys: dict[tuple[Relation, Positions], dict[Code, None]] = {}
         self.asked_lisp = False
 
-    def reader(self, access: Access, now: Callable[..., Any]) -> Callable[..., Any]:
-        """What reads as NOW does, for ACCESS, and notes it."""
+    def through(self, accesses: list[Access], readers: list[Callable[..., Any]]) -> list[Callable[..., Any]]:
+        """What reads as READERS do, for these accesses, and notes it."""
+        for access in accesses:
+            self.keys.setdefault((access.relation, RULES), {})[None] = None  # a rule may still come
+        return [self._reader(access, reader) for access, reader in zip(accesses, readers, strict=True)]
+
+    def _reader(self, access: Access, now: Callable[..., Any]) -> Callable[..., Any]:
         noted = self.keys.setdefault((access.relation, access.positions), {})
 
         def look(key: Code = None, *default: Any) -> Any:
@@ -56,10 +61,6 @@ class Reads:
             return now()
 
         return look if access.positions or access.is_ground else everything
-
-    def note_rules(self, relation: Relation) -> None:
-        """A rule that is yet to come could have answered here."""
-        self.keys.setdefault((relation, RULES), {})[None] = None
 
     def relations(self) -> list[tuple[Symbol, int]]:
         """The names and arities of what was read, without repetition."""
