@@ -82,6 +82,8 @@ class Form:
 class Jumps(list[Unwind]):
     """The jump that is about to be raised."""
 
+    __slots__ = ()
+
 
 class Dynamic:
     """What the running task has on its stack for failures to meet."""

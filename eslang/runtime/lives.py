@@ -49,6 +49,7 @@ class Lives:
         self.recent: Any = None  # where those that have ended are noted, if anybody wants to know
         self._names: dict[str, int] = {}
         self._spare: list[Stack] = []
+        self._make_stack: Callable[[], Stack] | None = None
         self._next: Task | None = None  # the one that is to begin
 
     # --- beginning -------------------------------------------------------------
@@ -87,7 +88,8 @@ class Lives:
             owner.children = {task: None}
         else:
             owner.children[task] = None
-        self.tell("task-started", about=task, parent=owner, role=role, daemon=task.daemon)
+        if self.session.hooks.listeners:
+            self.tell("task-started", about=task, parent=owner, role=role, daemon=task.daemon)
         self.scheduler.make_ready(task)
         if task.ending is not None and task.status is None:
             self._end_unborn(task)
@@ -108,23 +110,9 @@ class Lives:
             raise crash
 
     def _stack(self) -> Stack:
-        from greenlet import getcurrent, greenlet
-
-        lives = ref(self)
-
-        def serve() -> None:
-            """Run tasks on this stack, one after the other, as long as it is kept.
-
-            While it waits it holds nothing: what a stack holds, Python's collector of garbage cannot see.
-            """
-            while True:
-                owner = lives()
-                if owner is None or not owner.serve():
-                    return
-                del owner
-                getcurrent().parent.switch()
-
-        return greenlet(serve)
+        if self._make_stack is None:
+            self._make_stack = maker_of_stacks(ref(self))
+        return self._make_stack()
 
     def serve(self) -> bool:
         """Let the task that is to begin live on the stack at hand; true if that is kept afterwards."""
@@ -223,7 +211,8 @@ class Lives:
     def end(self, task: Task, status: Keyword) -> None:
         """TASK, the current one, has ended: wake who waits for that."""
         task.status = status
-        self.tell("task-ended", about=task, status=status, failure=task.failure)
+        if self.session.hooks.listeners:
+            self.tell("task-ended", about=task, status=status, failure=task.failure)
         self.session.bindings.take_off()
         self.count -= 1
         if task in self.tops:
@@ -234,13 +223,15 @@ class Lives:
             self._note_unseen(task)
         if self.recent is not None and not task.is_root:
             self.recent.append(task)
-        task.body = task.source = None
-        task.interrupts.clear()
+        task.body = task.source = task.spare = None
+        task.interrupts = ()
         task.stack = task.switch = task.ending = task.surroundings = None
-        task.queued = False
+        task.queued, task.unseen = False, ()
         self.scheduler.current = None
-        self.scheduler.wake(task.reach(END))
-        self.scheduler.wake(task.signal(task.given()))
+        if task.checkpoints:
+            self.scheduler.wake(task.reach(END))
+        if task.waits:
+            self.scheduler.wake(task.signal(task.given()))
         if task.on_end is not None:
             on_end, task.on_end = task.on_end, None
             on_end(task)
@@ -330,3 +321,22 @@ def passed_on(task: Task) -> Failure:
     task.seen = True
     running.session.scheduler.lives.tell("failure-passed", failure=failure, of=task)
     return failure
+
+
+def maker_of_stacks(lives: Callable[[], Lives | None]) -> Callable[[], Stack]:
+    """What makes stacks for the tasks of LIVES, which it does not keep alive."""
+    from greenlet import getcurrent, greenlet
+
+    def serve() -> None:
+        """Run tasks on this stack, one after the other, as long as it is kept.
+
+        While it waits it holds nothing: what a stack holds, Python's collector of garbage cannot see.
+        """
+        while True:
+            owner = lives()
+            if owner is None or not owner.serve():
+                return
+            del owner
+            getcurrent().parent.switch()
+
+    return lambda: greenlet(serve)

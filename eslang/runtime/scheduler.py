@@ -151,7 +151,7 @@ class Scheduler:
                 self.stop_run()
             if self.between is not None:
                 self.between()
-            if timers and timers.fire(self.session.clock.now()):
+            if timers.heap and timers.fire(self.session.clock.now()):
                 continue
             if not ready:
                 idle(self)
@@ -372,7 +372,10 @@ class Scheduler:
         if task.status is None:
             interrupt.by = interrupt.by or self.current
             self.lives.tell("interrupt-sent", to=task, why=interrupt.kind, by=interrupt.by)
-            task.interrupts.append(interrupt)
+            if task.interrupts:
+                task.interrupts.append(interrupt)
+            else:
+                task.interrupts = [interrupt]
             self.make_ready(task)
 
     # --- what comes from outside -------------------------------------------------

@@ -123,7 +123,7 @@ class Task(Event):
         self.queued = False  # among the ready
         self.wait: Wait | None = None  # the innermost
         self.spare: Wait | None = None  # one that is over, for an event: the next may use it again
-        self.interrupts: list[Interrupt] = []
+        self.interrupts: list[Interrupt] | tuple[()] = ()
         self.ending: EndTask | Stop | None = None  # it was aborted, or the run is to end
         self.daemon = False
         self.is_root = False  # entered from outside: what it spawns belongs to the run
@@ -168,17 +168,17 @@ class Task(Event):
 
     def next_interrupt(self) -> Interrupt | None:
         """Take the first interrupt that can reach it now; those whose forms were left are dropped."""
-        index = 0
-        while index < len(self.interrupts):
-            interrupt = self.interrupts[index]
+        found: Interrupt | None = None
+        left: list[Interrupt] = []
+        for interrupt in self.interrupts:
             if interrupt.extent is not None and not interrupt.extent.live:
-                del self.interrupts[index]
-            elif self.may_take(interrupt):
-                del self.interrupts[index]
-                return interrupt
+                continue
+            if found is None and self.may_take(interrupt):
+                found = interrupt
             else:
-                index += 1
-        return None
+                left.append(interrupt)
+        self.interrupts = left
+        return found
 
     def may_end(self) -> bool:
         """True if it is to end, and nothing holds that off."""

@@ -27,6 +27,7 @@ class Ticks:
         self.pending: Stop | None = None  # what the run is to end with
         self.safepoint = safepoint
         self.watch_calls = True  # a pending stop is to be found at calls, too
+        self._slices = self._slice
         self.source = self.make()  # what compiled loops iterate over
 
     def make(self) -> Iterator[None]:
@@ -36,7 +37,7 @@ class Ticks:
         out draw from them: so it is raised by a part of the slice, not by the
         giver of slices.
         """
-        return chain.from_iterable(iter(self._slice, None))
+        return chain.from_iterable(iter(self._slices, None))
 
     def _slice(self) -> Iterable[None]:
         return chain(repeat(None, SLICE), iter(self._pass, None))

@@ -27,21 +27,21 @@ class Timer:
 class Timers:
     """All timers of one scheduler."""
 
-    __slots__ = ("_count", "_heap", "_off")
+    __slots__ = ("_count", "_off", "heap")
 
     def __init__(self) -> None:
-        self._heap: list[tuple[float, int, Timer]] = []
+        self.heap: list[tuple[float, int, Timer]] = []
         self._count = 0
         self._off = 0  # how many in the heap were called off
 
     def __len__(self) -> int:
-        return len(self._heap) - self._off
+        return len(self.heap) - self._off
 
     def set(self, moment: float, action: Callable[[], None]) -> Timer:
         """Let ACTION happen at MOMENT."""
         timer = Timer(moment, action)
         self._count += 1
-        heappush(self._heap, (moment, self._count, timer))
+        heappush(self.heap, (moment, self._count, timer))
         return timer
 
     def call_off(self, timer: Timer) -> None:
@@ -50,14 +50,14 @@ class Timers:
             return
         timer.action = None
         self._off += 1
-        if self._off > FEW and self._off * 2 > len(self._heap):
-            self._heap = [entry for entry in self._heap if entry[2].action is not None]
-            heapify(self._heap)
+        if self._off > FEW and self._off * 2 > len(self.heap):
+            self.heap = [entry for entry in self.heap if entry[2].action is not None]
+            heapify(self.heap)
             self._off = 0
 
     def next_moment(self) -> float | None:
         """When the next timer is due; None if there is none."""
-        heap = self._heap
+        heap = self.heap
         while heap and heap[0][2].action is None:
             heappop(heap)
             self._off -= 1
@@ -70,7 +70,7 @@ class Timers:
             moment = self.next_moment()
             if moment is None or moment > now:
                 return fired
-            action, timer = None, heappop(self._heap)[2]
+            action, timer = None, heappop(self.heap)[2]
             action, timer.action = timer.action, None
             if action is not None:
                 action()

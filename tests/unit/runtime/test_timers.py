@@ -52,7 +52,7 @@ def test_timers_that_were_called_off_do_not_pile_up() -> None:
     for moment in range(10_000):
         timers.call_off(timers.set(float(moment), lambda: None))
     assert len(timers) == 0
-    assert len(timers._heap) <= 2 * FEW + 2
+    assert len(timers.heap) <= 2 * FEW + 2
 
 
 @given(st.lists(st.tuples(st.integers(0, 5), st.booleans()), max_size=40), st.integers(0, 5))
