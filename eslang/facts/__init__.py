@@ -1,7 +1,7 @@
 """A small Prolog: assertions, and questions about them.
 
 In reading order: unify, terms, relations, properties, watching (what is held,
-and who hears of it); goals, nested (what is asked); rules, steps, procs (how
+and who hears of it); goals, nested, patterns (what is asked); rules, steps, procs (how
 an answer is found); source, tables, functions (the Python that finds it);
 store, plans, explain, query (the database as a whole).
 

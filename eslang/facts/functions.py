@@ -11,7 +11,7 @@ from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.symbols import Symbol
 from eslang.facts.goals import Constants
 from eslang.facts.procs import Clause, Proc, reached_from
-from eslang.facts.relations import EMPTY, Access
+from eslang.facts.relations import EMPTY, Accesses
 from eslang.facts.source import (
     TABLE_NAMES,
     TABLE_OPENING,
@@ -46,7 +46,7 @@ class Compiled(NamedTuple):
     """The functions of a query, compiled, and what they read."""
 
     make: Callable[[list[Any], Any], Callable[..., Any]]  # readers, call → the function
-    accesses: list[Access]
+    accesses: Accesses
     text: str
 
 
@@ -66,7 +66,7 @@ def compile_query(question: Question, kind: str) -> Compiled:
     def make(readers: list[Any], call: Any) -> Callable[..., Any]:
         return outer(readers, call, *fixed)  # type: ignore[no-any-return]
 
-    return Compiled(make, list(source.accesses), text)
+    return Compiled(make, Accesses(source.accesses), text)
 
 
 def _factory(source: Source, question: Question, procs: list[Proc], main: str) -> str:

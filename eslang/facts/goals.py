@@ -125,13 +125,19 @@ def _read_goal(goal: Value, given: Given, tokens: list[Any], constants: Constant
         raise type_error(name, "RELATION")
     tokens.append(name)
     parts = items(goal.cdr)
-    if name is NOT and len(parts) != 1:
-        raise simple_error("NOT is said of one goal, not of ~D: ~S", len(parts), goal)
-    for part in parts:
-        if name in CONNECTIVES:
+    if name in CONNECTIVES:
+        if name is NOT and len(parts) != 1:
+            raise simple_error("NOT is said of one goal, not of ~D: ~S", len(parts), goal)
+        for part in parts:
             _read_goal(part, given, tokens, constants)
-        else:
-            _read_term(part, given, tokens, constants)
+    else:
+        for part in parts:
+            kind = part.__class__
+            if kind not in DIRECT or (kind is Symbol and part.name[:1] == "?"):
+                _read_term(part, given, tokens, constants)
+            else:
+                tokens.append(CONSTANT)
+                constants.append(part)
     tokens.append(CLOSE)
 
 

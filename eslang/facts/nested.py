@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from eslang.base.hints import Callable
-from eslang.base.lists import Cons, from_items
+from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import ANYTHING, Constant, Nested, Term
 from eslang.facts.terms import Code, code_of, value_of
@@ -66,15 +66,3 @@ def matcher(term: Nested, known: list[Leaf], wanted: list[Symbol]) -> Callable[.
         return tuple([found[variable] for variable in wanted])
 
     return match
-
-
-def row_matcher(terms: tuple[Term, ...], constants: list[Code]) -> Callable[[tuple[Code, ...]], bool] | None:
-    """What tells whether a row is as TERMS say, constants aside; None if every row is."""
-    names = [term for term in terms if isinstance(term, Symbol) and term.name != ANYTHING]
-    if len(set(names)) == len(names) and not any(isinstance(term, Nested) for term in terms):
-        return None
-    whole = Nested(terms, None)
-    known = [leaf for leaf in leaves_of(whole) if isinstance(leaf, Constant)]
-    codes = [constants[leaf.number] for leaf in known]
-    match = matcher(whole, list(known), [])
-    return lambda row: match(code_of(from_items([value_of(code) for code in row])), *codes) is not None

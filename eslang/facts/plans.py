@@ -25,7 +25,7 @@ Call = Callable[[Symbol, list[Value]], bool]
 class Plan:
     """How all queries of one shape are answered."""
 
-    __slots__ = ("call", "compiled", "is_fresh", "question", "run_all", "run_first", "tests")
+    __slots__ = ("call", "compiled", "guessed", "is_fresh", "question", "run_all", "run_first", "tests")
 
     def __init__(self, planner: Planner, tokens: Tokens, call: Call) -> None:
         count = len(planner.constants)
@@ -38,6 +38,9 @@ class Plan:
         bodies: list[Steps] = [steps, *(clause.steps for proc in procs for clause in proc.clauses)]
         self.tests = [name for body in bodies for name in tests(body)]
         self.is_fresh = any(proc.circle for proc in procs)  # what it remembers is for one run only
+        self.guessed: tuple[
+            Symbol, ...
+        ] = ()  # names that nobody had defined when it was made
         self.call = call
         self.compiled: dict[str, Compiled] = {}
         self.run_all: Callable[..., Any] | None = (
@@ -55,7 +58,7 @@ class Plan:
     def runner(self, kind: str) -> Callable[..., Any]:
         """What answers from the facts as they are; nothing may change them while it runs."""
         compiled = self.functions(kind)
-        return compiled.make([access.reader() for access in compiled.accesses], self.call)
+        return compiled.make(compiled.accesses.readers(), self.call)
 
     def all(self, constants: Constants) -> list[Solution]:
         """All solutions."""
@@ -77,7 +80,7 @@ class Plan:
         """What answers when Lisp is asked, too, which may change the facts."""
         compiled = self.functions(kind)
         view = View(compiled.accesses)
-        readers = view.readers()
+        readers = view.readers
         if reads is not None:
             readers = reads.through(compiled.accesses, readers)
         if depth[0] > DEEPEST:
@@ -94,7 +97,7 @@ class Plan:
         """The solutions of this moment, one at a time."""
         compiled = self.functions(LAZY)
         view = View(compiled.accesses)
-        return Solutions(view, compiled.make(view.readers(), self.call)(*constants))
+        return Solutions(view, compiled.make(view.readers, self.call)(*constants))
 
     def noting(self, constants: Constants, reads: Reads) -> Solution | None:
         """The first solution, and in READS what was read to find it."""
@@ -102,7 +105,7 @@ class Plan:
         if self.tests:
             return self._on_view(FIRST, constants, reads)  # type: ignore[no-any-return]
         compiled = self.functions(FIRST)
-        readers = reads.through(compiled.accesses, [access.reader() for access in compiled.accesses])
+        readers = reads.through(compiled.accesses, compiled.accesses.readers())
         return compiled.make(readers, self.call)(*constants)  # type: ignore[no-any-return]
 
 

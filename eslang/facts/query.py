@@ -30,6 +30,8 @@ class Facts(Store):
         self.declared: dict[Symbol, list[int]] = {}  # names, and the arities they were declared with
         self.rules = Rules(self.is_test)
         self.plans: dict[Tokens | None, Plan] = {}
+        self.guesses: dict[Tokens, Plan] = {}  # plans with names that nobody defined yet
+        self.guessed: dict[Symbol, None] = {}  # these names, while a plan is made
 
     def declare(self, name: Symbol, arity: int | None = None) -> None:
         """Let NAME be a relation, of ARITY if that is told."""
@@ -42,7 +44,7 @@ class Facts(Store):
         """Let NAME be a relation whose last argument is unique for the others."""
         self.declared.setdefault(name, [])
         super().declare_property(name)
-        self.plans.clear()
+        self._forget_plans()
 
     def is_relation(self, name: Symbol) -> bool:
         """Whether NAME was declared, or has rules, or has or had facts."""
@@ -57,10 +59,11 @@ class Facts(Store):
     def became_coded(self, relation: Relation) -> None:
         """Rows of RELATION may hold codes from now on, which plans did not reckon with."""
         super().became_coded(relation)
-        self.plans.clear()
+        self._forget_plans()
 
     def became_relation(self, name: Symbol) -> None:
         """NAME is a relation from now on, even if plans took it for a function."""
+        self.guesses.clear()
         if any(name in plan.tests for plan in self.plans.values()):
             self.plans.clear()
 
@@ -115,25 +118,36 @@ class Facts(Store):
     def plan(self, query: Value, given: Given = NOTHING_GIVEN) -> tuple[Plan, Constants]:
         """How QUERY is answered, and its constants."""
         tokens, constants = read_query(query, given)
-        plan = self.plans.get(tokens)
-        if plan is None:
-            plan = self.plans[tokens] = Plan(self.planner(constants), tokens, self.call)
+        plan = self.plans.get(tokens) or self.guesses.get(tokens)
+        if plan is None or any(map(self.is_call, plan.guessed)):
+            self.guessed.clear()
+            plan = Plan(self.planner(constants), tokens, self.call)
+            plan.guessed = tuple(self.guessed)
+            (self.guesses if plan.guessed else self.plans)[tokens] = plan
         return plan, constants
 
     def planner(self, constants: Constants) -> Planner:
         """What plans a query with these constants."""
         return Planner(self._resolve, self._rules_of, constants)
 
+    def _forget_plans(self) -> None:
+        self.plans.clear()
+        self.guesses.clear()
+
     def _resolve(self, atom: Atom) -> Relation | None:
         """The relation that ATOM is about; None if it is a call."""
-        return None if self.is_test(atom.name) else self.relation(atom.name, len(atom.terms))
+        if not self.is_relation(atom.name):
+            if self.is_call(atom.name):
+                return None
+            self.guessed[atom.name] = None
+        return self.relation(atom.name, len(atom.terms))
 
     def _rules_of(self, name: Name) -> list[Rule]:
         return self.rules.by_name.get(name, [])
 
     def _rules_changed(self, names: list[Name]) -> None:
         """Forget the plans, and wake who asked these relations."""
-        self.plans.clear()
+        self._forget_plans()
         woken = dict.fromkeys(watch for name in names for watch in woken_by_rules(self.relation(*name)))
         for watch in woken:
             watch.callback(None)

@@ -145,70 +145,85 @@ def _nothing(row: Row) -> Code:
     return None
 
 
+class Accesses:
+    """The accesses of one query, and what its views need of them."""
+
+    __slots__ = ("accesses", "projects", "relations")
+
+    def __init__(self, accesses: Iterable[Access]) -> None:
+        self.accesses = list(accesses)
+        self.projects = [access.project() for access in self.accesses]
+        self.relations = list({id(access.relation): access.relation for access in self.accesses}.values())
+
+    def readers(self) -> list[Callable[..., Any]]:
+        """What reads the facts as they are."""
+        return [access.reader() for access in self.accesses]
+
+
 class View:
     """Some relations as they were when the view was opened, for the accesses of one query."""
 
-    __slots__ = ("accesses", "kept", "projects")
+    __slots__ = ("accesses", "kept", "readers")
 
-    def __init__(self, accesses: list[Access]) -> None:
+    def __init__(self, accesses: Accesses) -> None:
         self.accesses = accesses
-        self.kept: list[dict[Code, Any]] = [{} for _ in accesses]
-        self.projects = [access.project() for access in accesses]
-        for relation in self._relations():
+        self.kept: list[dict[Code, Any]] = []
+        self.readers: list[
+            Callable[..., Any]
+        ] = []  # what reads through this view, in the order of the accesses
+        for access in accesses.accesses:
+            kept: dict[Code, Any] = {}
+            self.kept.append(kept)
+            self.readers.append(_keeping_reader(access, kept))  # and now its index exists, before any change
+        for relation in accesses.relations:
             relation.views.append(self)
-        for access in accesses:
-            access.reader()  # the index has to exist before anything changes
-
-    def _relations(self) -> Iterable[Relation]:
-        return {id(access.relation): access.relation for access in self.accesses}.values()
 
     def close(self) -> None:
         """Nobody reads here any more."""
-        for relation in self._relations():
+        for relation in self.accesses.relations:
             if self in relation.views:
                 relation.views.remove(self)
 
     def keep(self, relation: Relation, row: Row) -> None:
         """Note what every access would find ROW among, before ROW comes or goes."""
-        for number, access in enumerate(self.accesses):
+        for number, access in enumerate(self.accesses.accesses):
             if access.relation is relation:
-                key = self.projects[number](row)
+                key = self.accesses.projects[number](row)
                 if key not in self.kept[number]:
-                    self.kept[number][key] = self._present(access, key)
+                    self.kept[number][key] = _present(access, key)
 
-    def _present(self, access: Access, key: Code) -> Any:
-        if access.is_ground:
-            return key in access.relation.rows
-        if not access.positions:
-            return tuple(access.relation.rows)
-        return tuple(access.relation.index(access.positions).get(key, EMPTY))
 
-    def readers(self) -> list[Callable[..., Any]]:
-        """What reads through this view, in the order of the accesses."""
-        return [self._reader(number, access) for number, access in enumerate(self.accesses)]
+def _present(access: Access, key: Code) -> Any:
+    """What ACCESS finds under KEY now."""
+    if access.is_ground:
+        return key in access.relation.rows
+    if not access.positions:
+        return tuple(access.relation.rows)
+    return tuple(access.relation.index(access.positions).get(key, EMPTY))
 
-    def _reader(self, number: int, access: Access) -> Callable[..., Any]:
-        kept = self.kept[number]
-        now = access.reader()
 
-        def has(row: Row) -> bool:
-            found = kept.get(row)
-            return bool(now(row) if found is None else found)
+def _keeping_reader(access: Access, kept: dict[Code, Any]) -> Callable[..., Any]:
+    """What reads what is KEPT, and where nothing is, the facts as they are."""
+    now = access.reader()
 
-        def everything() -> Iterable[Row]:
-            rows = kept.get(None)
-            if rows is None:
-                rows = kept[None] = tuple(now())
-            return rows
+    def has(row: Row) -> bool:
+        found = kept.get(row)
+        return bool(now(row) if found is None else found)
 
-        def bucket(key: Code, default: Bucket) -> Bucket:
-            rows = kept.get(key)
-            if rows is None:
-                rows = now(key, default)
-                if rows.__class__ is dict:
-                    rows = kept[key] = tuple(rows)
-            return rows
+    def everything() -> Iterable[Row]:
+        rows = kept.get(None)
+        if rows is None:
+            rows = kept[None] = tuple(now())
+        return rows
 
-        if access.is_ground:
-            return has
-        return bucket if access.positions else everything
+    def bucket(key: Code, default: Bucket) -> Bucket:
+        rows = kept.get(key)
+        if rows is None:
+            rows = now(key, default)
+            if rows.__class__ is dict:
+                rows = kept[key] = tuple(rows)
+        return rows
+
+    if access.is_ground:
+        return has
+    return bucket if access.positions else everything

@@ -13,18 +13,18 @@ from eslang.base.hints import Callable, Iterable, Iterator
 from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import (
-    NOTHING_GIVEN,
     Atom,
     Constants,
     Tokens,
     has_variables,
+    quick_tokens,
     read_query,
     shape_of,
     unbound,
 )
+from eslang.facts.patterns import Pattern
 from eslang.facts.properties import overruled, unique_positions
-from eslang.facts.relations import EMPTY, Relation
-from eslang.facts.steps import is_known
+from eslang.facts.relations import Relation
 from eslang.facts.terms import DIRECT, Row, code_of, fact_of
 from eslang.facts.unify import is_variable
 from eslang.facts.watching import Change, Watch, woken_by
@@ -40,7 +40,7 @@ class Store:
         self.properties: dict[Symbol, None] = {}
         self.known: dict[Symbol, None] = {}  # names that have, or had, facts
         self.subscribers: list[Subscriber] = []
-        self._patterns: dict[Tokens, tuple[Relation, Atom]] = {}  # that were asked for by RETRACT and UPDATE
+        self._patterns: dict[Tokens | None, Pattern] = {}  # that were asked for by RETRACT and UPDATE
         self._changes: list[tuple[Relation, Change]] = []  # made, and not told yet
         self._telling = False
 
@@ -143,14 +143,16 @@ class Store:
 
     def matching(self, pattern: Value) -> tuple[Relation, list[Row]]:
         """The relation that PATTERN is about, and its rows that match, in order."""
-        tokens, constants = read_query(pattern, NOTHING_GIVEN)
-        found = self._patterns.get(tokens)
+        constants: Constants = []
+        found = self._patterns.get(quick_tokens(pattern, constants))
         if found is None:
+            tokens, constants = read_query(pattern)
             atom = shape_of(tokens).goal
             if not isinstance(atom, Atom):
                 raise type_error(pattern, "FACT")
-            found = self._patterns[tokens] = self.relation(atom.name, len(atom.terms)), atom
-        return found[0], _matching(*found, constants)
+            relation = self.relation(atom.name, len(atom.terms))
+            found = self._patterns[tokens] = Pattern(relation, atom.terms)
+        return found.relation, found.rows(constants)
 
     def declare_property(self, name: Symbol) -> None:
         """Let the last argument of NAME be unique for the others; of facts that clash the last stays."""
@@ -229,19 +231,3 @@ def _first_variable(term: Value) -> Symbol:
             return term  # type: ignore[no-any-return]
         if term.__class__ is Cons:
             pending += [term.cdr, term.car]
-
-
-def _matching(relation: Relation, atom: Atom, constants: Constants) -> list[Row]:
-    """The rows of RELATION that ATOM matches, in order."""
-    from eslang.facts.nested import row_matcher  # only what is not ground needs it
-
-    known = tuple(place for place, term in enumerate(atom.terms) if is_known(term, frozenset()))
-    codes = tuple(constants[atom.terms[place].number] for place in known)  # type: ignore[union-attr]
-    if len(known) == relation.arity:
-        return [codes] if codes in relation.rows else []
-    if not known:
-        rows: Iterable[Row] = relation.rows
-    else:
-        rows = relation.index(known).get(codes[0] if len(codes) == 1 else codes, EMPTY)
-    matches = row_matcher(atom.terms, constants)
-    return [row for row in rows if matches is None or matches(row)]

@@ -11,7 +11,7 @@ from __future__ import annotations
 from eslang.base.hints import Any, Callable, Iterable
 from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol
-from eslang.facts.relations import Access, Positions, Project, Relation
+from eslang.facts.relations import Access, Accesses, Positions, Project, Relation
 from eslang.facts.terms import Code, Row, fact_of
 
 
@@ -43,11 +43,13 @@ class Reads:
         self.keys: dict[tuple[Relation, Positions], dict[Code, None]] = {}
         self.asked_lisp = False
 
-    def through(self, accesses: list[Access], readers: list[Callable[..., Any]]) -> list[Callable[..., Any]]:
+    def through(self, accesses: Accesses, readers: list[Callable[..., Any]]) -> list[Callable[..., Any]]:
         """What reads as READERS do, for these accesses, and notes it."""
-        for access in accesses:
-            self.keys.setdefault((access.relation, RULES), {})[None] = None  # a rule may still come
-        return [self._reader(access, reader) for access, reader in zip(accesses, readers, strict=True)]
+        for relation in accesses.relations:
+            self.keys.setdefault((relation, RULES), {})[None] = None  # a rule may still come
+        return [
+            self._reader(access, reader) for access, reader in zip(accesses.accesses, readers, strict=True)
+        ]
 
     def _reader(self, access: Access, now: Callable[..., Any]) -> Callable[..., Any]:
         noted = self.keys.setdefault((access.relation, access.positions), {})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from asking import Asking, bound, read, told
+from asking import LISP, Asking, bound, read, told
 
 from eslang.base.failure import Failure
 from eslang.base.printer import prin1
@@ -179,6 +179,16 @@ def test_a_name_that_becomes_a_relation_is_no_test_any_more() -> None:
     assert facts.answers("(and (p ?x) (evenp ?x))") == ["2"]
     facts.add(read("(evenp 3)"))
     assert facts.answers("(and (p ?x) (evenp ?x))") == []
+
+
+def test_a_name_that_nobody_knew_may_become_a_function_or_a_relation(monkeypatch: pytest.MonkeyPatch) -> None:
+    facts = Asking("(p 2)", "(p 4)")
+    assert facts.answers("(and (p ?x) (oddly ?x))") == []
+    assert facts.answers("(and (p ?x) (rarely ?x))") == []
+    monkeypatch.setitem(LISP, "ODDLY", lambda number: number == 4)
+    assert facts.answers("(and (p ?x) (oddly ?x))") == ["4"]
+    facts.add(read("(rarely 2)"))
+    assert facts.answers("(and (p ?x) (rarely ?x))") == ["2"]
 
 
 def test_a_relation_may_get_its_first_string_late() -> None:
