@@ -16,7 +16,6 @@ from eslang.base.printer import prin1
 from eslang.base.shown import shown
 from eslang.base.suggest import nearest
 from eslang.runtime.deadlock import family, phrase, place_of_task
-from eslang.runtime.lives import END
 from eslang.runtime.tasks import ABORTED, FAILED, Task
 from eslang.tools.report import failure_text, place_of
 
@@ -141,8 +140,8 @@ class Census:
 
 
 def reached(task: Task) -> list[str]:
-    """The checkpoints that TASK has passed, its end left out."""
-    return [checkpoint(key) for key in task.reached or () if key is not END]
+    """The checkpoints that TASK has passed."""
+    return [checkpoint(key) for key in task.reached or ()]
 
 
 def checkpoint(key: Any) -> str:

@@ -14,6 +14,7 @@ import os
 import sys
 from types import FrameType
 
+from eslang.base.control import Stop
 from eslang.base.hints import Any
 
 INTERRUPTED, TIME_LIMIT = 130, 124
@@ -66,7 +67,8 @@ class Interrupts:
         self.asked += 1
         self.code = code
         if not self.gentle or self.asked > 1 or self.interp.runs.root is not None:
-            self.interp.interrupt(reason, code)
+            self.interp.ticks.stop(Stop(reason, code))  # also what is still being read, before any task
+            self.interp.scheduler.post(lambda: None)  # whoever rests is to look
         elif self.resting:
             raise KeyboardInterrupt
 
@@ -101,7 +103,11 @@ class Turns:
         interp = self.interp
         if frame is None or (interp.clock.is_virtual and interp.ticks.pending is None):
             return
-        interp.scheduler.turns = 0  # the driver is to look at clock and posts soon
+        scheduler = interp.scheduler
+        scheduler.granted, scheduler.turns = (
+            scheduler.granted - scheduler.turns,
+            0,
+        )  # the driver is to look soon
         if frame.f_globals.get("%ticks") is interp.ticks and frame.f_code.co_code[frame.f_lasti] == ENTRY:
             interp.scheduler.safepoint()
 
