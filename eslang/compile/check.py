@@ -136,7 +136,8 @@ class Checker:
             if name not in expected.keywords and name != "ALLOW-OTHER-KEYS":
                 close = nearest(name, expected.keywords)
                 hint = f"write `:{close.lower()}`" if close else None
-                message = f"`{_shown(use.symbol)}` has no keyword argument `:{name.lower()}`"
+                operator = _shown(use.symbol).removeprefix("%")  # the macro, not what it expands into
+                message = f"`{operator}` has no keyword argument `:{name.lower()}`"
                 return _diagnostic("unknown-keyword", message, use, hint)
         return None
 

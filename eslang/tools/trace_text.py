@@ -252,7 +252,7 @@ class Lanes:
     def drawn(self, record: Record) -> str:
         """The lanes at RECORD, all that came before followed."""
         while self.position <= record.number:
-            self._follow(self.records[self.position])
+            self._follow(self.records[self.position], record)
             self.position += 1
         sign, about = SIGNS.get(record.kind, "•"), subject(record)
         if record.kind == "task-ended":
@@ -272,7 +272,8 @@ class Lanes:
     def _cell(self, name: str | None) -> str:
         return " " if name is None else self.state.get(name, WORKING)
 
-    def _follow(self, record: Record) -> None:
+    def _follow(self, record: Record, drawn: Record) -> None:
+        """Keep up with RECORD; a task whose end is the one that is DRAWN has its lane until then."""
         name = subject(record)
         if record.kind == "task-started" and name is not None:
             self._open(name)
@@ -284,7 +285,7 @@ class Lanes:
             self.state[name] = WORKING
         elif record.kind == "interrupt-ended" and name is not None:
             self.state[name] = self.stood.get(name, WORKING)
-        elif record.kind == "task-ended" and self.position != record.number:
+        elif record.kind == "task-ended" and record is not drawn and name in self.columns:
             self.columns[self.columns.index(name)] = None
 
     def _open(self, name: str) -> None:

@@ -161,3 +161,13 @@ def test_the_arrows_of_a_run() -> None:
         ("failure", "camera", "main.6"),
         ("join", "guarded", "main.6"),
     }
+
+
+def test_who_ended_before_what_is_told_has_no_lane_any_more() -> None:
+    told = lines("(task-net (short (sleep 1)) (long (sleep 9)))", first=2.0)
+    assert told[4:] == [
+        "    9.000  ┊ ●  long  goes on",
+        "           ┊ ✓  long  has succeeded",
+        "           ●    main  goes on",
+        "           ✓    main  has succeeded",
+    ]
