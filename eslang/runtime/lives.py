@@ -16,7 +16,7 @@ from eslang.base.hints import TYPE_CHECKING, Any, Callable
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Value
 from eslang.runtime import failures
-from eslang.runtime.events import Wait
+from eslang.runtime.events import Event, Wait
 from eslang.runtime.story import place_here
 from eslang.runtime.tasks import ABORTED, ANYWHERE, FAILED, SUCCEEDED, Interrupt, Task
 
@@ -27,13 +27,6 @@ if TYPE_CHECKING:
 
 SPARE = 64  # stacks that are kept for tasks to come
 LEAVING = "leaving"  # the kind of a wait for the end of one that was aborted, which nothing cuts short
-
-
-class End:
-    """The privileged identifier of the checkpoint at the end of a task (ESL §4.2)."""
-
-
-END = End()
 
 
 class Lives:
@@ -228,8 +221,8 @@ class Lives:
         task.stack = task.switch = task.ending = task.surroundings = None
         task.queued, task.unseen = False, ()
         self.scheduler.current = None
-        if task.checkpoints:
-            self.scheduler.wake(task.reach(END))
+        if task.over is not None:
+            self.scheduler.signal(task.over, ())
         if task.waits:
             self.scheduler.wake(task.signal(task.given()))
         if task.on_end is not None:
@@ -283,8 +276,9 @@ class Lives:
     def await_end(self, task: Task, other: Task, kind: str = "end") -> None:
         """Let TASK, the current one, wait until OTHER has ended."""
         if other.status is None:
-            event = other.checkpoint_event(END, None)
-            self.scheduler.wait(Wait(task, kind, other, (event,)))
+            if other.over is None:
+                other.over = Event()
+            self.scheduler.wait(Wait(task, kind, other, (other.over,)))
 
     def abort_all(self, task: Task, others: list[Task], why: str) -> None:
         """Abort OTHERS, and let TASK, the current one, wait until they have ended; nothing holds it up."""

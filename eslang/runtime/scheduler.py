@@ -143,7 +143,8 @@ class Scheduler:
         if self.driver is None:
             self._take_the_wheel(task)
         ready, posted, timers = self.ready, self.posted, self.timers
-        self.look_again()
+        if self.watching:
+            self.look_again()
         while done is None or not done():
             if not posted.empty():
                 self.take_posts()
@@ -159,7 +160,7 @@ class Scheduler:
             turns = 0 if self.shuffled or self.watching else TURNS
             self.granted += 1 + turns - self.turns
             self.turns = turns
-            other = self._pick()
+            other = ready.popleft() if not self.shuffled else self._pick()
             if other is task:
                 return
             self.lives.step(other)
@@ -189,9 +190,9 @@ class Scheduler:
         return getcurrent() is task.stack
 
     def _pick(self) -> Task:
-        """Take the next of the ready: the first, or any of them."""
+        """Take any of the ready, as chance has it."""
         ready = self.ready
-        if self.shuffled and len(ready) > 1:
+        if len(ready) > 1:
             index = self.session.chance.randrange(len(ready))
             if index:
                 ready[0], ready[index] = ready[index], ready[0]

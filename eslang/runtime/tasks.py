@@ -89,6 +89,7 @@ class Task(Event):
         "is_root",
         "kept",
         "on_end",
+        "over",
         "parent",
         "promises",
         "queued",
@@ -132,6 +133,7 @@ class Task(Event):
         self.checkpoints: dict[Any, Event] | None = None  # that somebody waits for
         self.reached: dict[Any, None] | None = None  # checkpoints that it has passed
         self.on_end: Callable[[Task], None] | None = None
+        self.over: Event | None = None  # its last checkpoint, which no name has (ESL §4.2): its end
         self.promises: tuple[tuple[str, Value], ...] = ()  # what the text of its body signals
 
     def print_lisp(self, settings: Any) -> str:

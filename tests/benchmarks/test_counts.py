@@ -6,6 +6,7 @@ changes on purpose, the number here changes with it, and the change note says so
 
 from __future__ import annotations
 
+import gc
 import io
 import sys
 from collections.abc import Iterator
@@ -53,11 +54,13 @@ def calls_of(agent: Interpreter, name: str, *arguments: Any) -> int:
         count += event == "call"
 
     agent.call(name, *arguments)  # what is made when first wanted is made now
+    gc.disable()  # some libraries have the collector call functions of theirs
     sys.setprofile(note)
     try:
         agent.call(name, *arguments)
     finally:
         sys.setprofile(None)
+        gc.enable()
     return count
 
 

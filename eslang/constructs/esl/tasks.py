@@ -89,7 +89,7 @@ def spawn(form: Cons, environment: Any) -> Value:
 @function("(%spawn body promises called &key daemon name)", ESL)
 def spawn_function(body: Any, promises: Value, called: Value, *options: Value) -> Task:
     """Start a task that runs BODY; it is CALLED so unless it has a name."""
-    daemon, name = take_keys(options, ("DAEMON", "NAME"))
+    daemon, name = take_keys(options, ("DAEMON", "NAME")) if options else (None, None)
     scheduler = running.session.scheduler
     owner = scheduler.current
     if owner is not None and owner.is_root:
@@ -106,7 +106,8 @@ def make_task(name: Value, body: Any, promises: Value, parent: Task | None) -> T
         raise type_error(name, "SYMBOL", "spawn")
     text = name.text if isinstance(name, String) else name.name
     task: Task = running.session.scheduler.lives.create(text.lower(), many_of(body), parent)
-    task.promises = tuple([(each.car.name.lower(), each.cdr.car) for each in items(promises)])
+    if promises is not None:
+        task.promises = tuple([(each.car.name.lower(), each.cdr.car) for each in items(promises)])
     return task
 
 
