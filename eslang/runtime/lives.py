@@ -239,8 +239,9 @@ class Lives:
 
     def obey(self, task: Task, interrupt: Interrupt) -> None:
         """Do what INTERRUPT asks of TASK, the current one, on top of its stack."""
-        self.tell("interrupt", why=interrupt.kind, by=interrupt.by)
-        left = True
+        hooks, left = self.session.hooks, True
+        if hooks.listeners:
+            self.tell("interrupt", why=interrupt.kind, by=interrupt.by)
         try:
             failures.guarded(interrupt.action)
             left = False
@@ -248,7 +249,8 @@ class Lives:
             jump.failed = True  # what it leaves is cleaned up
             raise
         finally:
-            self.tell("interrupt-ended", why=interrupt.kind, left=left)
+            if hooks.listeners:
+                self.tell("interrupt-ended", why=interrupt.kind, left=left)
 
     def abort(self, task: Task, why: str, by: Task | None = None) -> None:
         """Let TASK leave everything, with its cleanups; once is enough. BY whom, and WHY, is told."""

@@ -80,10 +80,7 @@ class Scheduler:
             self.ready.append(task)
 
     def pause(self, task: Task) -> None:
-        """Let others have their turns, until it is that of TASK, the current one, again.
-
-        All switches come through here, which is why it is one piece.
-        """
+        """Let others have their turns, until it is that of TASK, the current one, again; all switch here."""
         if self.bindings.hidden is not None or depth[0]:
             self._take_off(task)
         ready = self.ready
@@ -123,10 +120,9 @@ class Scheduler:
 
     def _put_on(self, task: Task) -> None:
         """Put them in force again."""
-        if task.kept is not None:
-            bindings, depth[0] = task.kept
-            task.kept = None
-            self.bindings.put_on(bindings)
+        bindings, depth[0] = task.kept  # type: ignore[misc]
+        task.kept = None
+        self.bindings.put_on(bindings)
 
     def _drive_for(self, task: Task) -> None:
         """Drive until it is the turn of TASK, which runs on the driver's stack."""
@@ -372,7 +368,8 @@ class Scheduler:
         """Let TASK do what INTERRUPT says, where it stands, at its next step."""
         if task.status is None:
             interrupt.by = interrupt.by or self.current
-            self.lives.tell("interrupt-sent", to=task, why=interrupt.kind, by=interrupt.by)
+            if self.session.hooks.listeners:
+                self.lives.tell("interrupt-sent", to=task, why=interrupt.kind, by=interrupt.by)
             if task.interrupts:
                 task.interrupts.append(interrupt)
             else:
