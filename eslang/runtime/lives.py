@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from eslang.runtime.scheduler import Scheduler
 
 SPARE = 64  # stacks that are kept for tasks to come
+UNSEEN = 16  # failed tasks that an owner remembers until somebody looks at them
 LEAVING = "leaving"  # the kind of a wait for the end of one that was aborted, which nothing cuts short
 
 
@@ -38,7 +39,7 @@ class Lives:
         self.tops: dict[Task, None] = {}  # those that belong to the run, not to another task
         self.count = 0  # how many are alive
         self.crash: BaseException | None = None  # what no task could answer
-        self.unseen: Task | None = None  # one of the run's own, which failed while nobody looked
+        self.unseen: tuple[Task, ...] = ()  # those of the run's own that failed while nobody looked
         self.recent: Any = None  # where those that have ended are noted, if anybody wants to know
         self._names: dict[str, int] = {}
         self._spare: list[Stack] = []
@@ -192,8 +193,9 @@ class Lives:
                     self.abort(child, "owner")
             for child in children:
                 self.await_end(task, child)
-        if task.unseen is not None and not task.unseen.seen:
-            failures.signal(passed_on(task.unseen), continuable=True)
+        for child in task.unseen:
+            if not child.seen:
+                failures.signal(passed_on(child), continuable=True)
 
     def _lost(self) -> Failure:
         """The failure of a task that was left by a jump whose target is in another."""
@@ -212,7 +214,7 @@ class Lives:
             del self.tops[task]
         elif task.parent is not None and task.parent.children is not None:
             task.parent.children.pop(task, None)
-        if status is FAILED:
+        if status is FAILED and not task.seen:
             self._note_unseen(task)
         if self.recent is not None and not task.is_root:
             self.recent.append(task)
@@ -230,10 +232,9 @@ class Lives:
             on_end(task)
 
     def _note_unseen(self, task: Task) -> None:
-        """TASK has failed; its owner is to know, if nobody else looks at it."""
+        """TASK has failed; its owner is to know, if nobody else looks at it. Of many, a few are enough."""
         owner: Lives | Task = task.parent if task.parent is not None else self
-        if owner.unseen is None or owner.unseen.seen:
-            owner.unseen = task
+        owner.unseen = (*[other for other in owner.unseen if not other.seen], task)[:UNSEEN]
 
     # --- interrupting ------------------------------------------------------------
 

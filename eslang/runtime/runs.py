@@ -60,6 +60,7 @@ class Runs:
         self.lives.count += 1
         root.is_root = root.seen = True
         scheduler.enter(root)
+        scheduler.looked = -1  # it may change what others wait for
         self.lives.tell("task-started", about=root, parent=None, role="main", daemon=False)
         status: Keyword = ABORTED
         try:
@@ -151,9 +152,10 @@ class Runs:
 
     def raise_unseen(self) -> None:
         """Raise a failure of the run's own tasks that nobody has looked at."""
-        unseen, self.lives.unseen = self.lives.unseen, None
-        if unseen is not None and not unseen.seen:
-            raise passed_on(unseen)
+        unseen, self.lives.unseen = self.lives.unseen, ()
+        for task in unseen:
+            if not task.seen:
+                raise passed_on(task)
 
     def abort_all(self) -> None:
         """Abort all that belongs to the run, and wait until it has ended."""
@@ -169,16 +171,20 @@ class Runs:
 
     def drive_until(self, done: Callable[[], bool]) -> None:
         """Let tasks run, outside of any, until DONE. Raises Stop if they were stopped, and have all ended."""
-        scheduler = self.scheduler
-        if not done():
+
+        def is_over() -> bool:
+            return done() if self.stopped is None else not self.lives.tops
+
+        if not is_over():
             self.begin()
             try:
-                scheduler.drive(done=lambda: done() if self.stopped is None else not self.lives.tops)
+                self.scheduler.drive(done=is_over)
             finally:
-                scheduler.calm_down()
+                self.scheduler.calm_down()
                 self.gate.open()
         if self.stopped is not None:
             stop, self.stopped = self.stopped, None
+            self.lives.unseen = ()
             raise stop
 
     def stop(self, stop: Stop) -> None:

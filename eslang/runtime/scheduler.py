@@ -230,7 +230,7 @@ class Scheduler:
             stop = self.stop_run()
             if task.dynamic.masked:
                 task.ending = stop
-        self.turns = 0  # the driver looks at clock and posts
+        self.granted, self.turns = self.granted - self.turns, 0  # the driver looks at clock and posts
         if not task.dynamic.masked and (
             self.ready or self.watching or self.timers or self.between or not self.posted.empty()
         ):

@@ -120,7 +120,7 @@ class Task(Event):
         self.values: Value = None  # what it gave, all values
         self.failure: Failure | None = None  # what ended it
         self.seen = False  # somebody has looked at how it ended
-        self.unseen: Task | None = None  # one that it has spawned, which failed while nobody looked
+        self.unseen: tuple[Task, ...] = ()  # those that it has spawned which failed while nobody looked
         self.queued = False  # among the ready
         self.wait: Wait | None = None  # the innermost
         self.spare: Wait | None = None  # one that is over, for an event: the next may use it again

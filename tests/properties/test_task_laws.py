@@ -20,16 +20,34 @@ from hypothesis import strategies as st
 from strategies import task_plans
 from support import ROOT
 from trees.remains import forgotten, remains
-from trees.running import Run
+from trees.running import Run, abort, fail, interrupt, nothing, stop
 from trees.writer import task_plan
 
 LAW = settings(
-    max_examples=60,
+    max_examples=40,
     deadline=None,
     derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.large_base_example],
 )
 SEEDS = st.integers(0, 2**16)
+
+
+def fresh() -> Run:
+    """A run to come, in a new interpreter that does not change the limit of the stack."""
+    limit = sys.getrecursionlimit()
+    try:
+        return Run()
+    finally:
+        sys.setrecursionlimit(limit)
+
+
+def fresh() -> Run:
+    """A run to come, in a new interpreter that does not change the limit of the stack."""
+    limit = sys.getrecursionlimit()
+    try:
+        return Run()
+    finally:
+        sys.setrecursionlimit(limit)
 
 
 def ran(plan: str, *, shuffle: bool = False, seed: int = 0, run: Run | None = None) -> Run:
@@ -38,7 +56,6 @@ def ran(plan: str, *, shuffle: bool = False, seed: int = 0, run: Run | None = No
     sys.setrecursionlimit(100_000)
     try:
         run = run or Run(shuffle=shuffle, seed=seed)
-        run.begin()
         return run.evaluate(plan)
     finally:
         sys.setrecursionlimit(limit)
@@ -65,8 +82,34 @@ def test_every_cleanup_procedure_runs_whose_body_does_not_end(plan: str, shuffle
 def test_an_interpreter_is_as_good_as_new_after_a_run(plans: list[str]) -> None:
     run = None
     for plan in plans:
+        if run is not None:
+            run.begin()
         run = ran(plan, run=run)
         assert remains(run) == []
+
+
+FAULTS = {
+    "an abort": abort,
+    "a failure": lambda task: interrupt(task, fail),
+    "an interrupt": lambda task: interrupt(task, nothing),
+    "a stop": lambda task: stop,
+}
+WHAT_COMES_BETWEEN = st.tuples(st.sampled_from(sorted(FAULTS)), st.integers(0, 500), st.integers(0, 50))
+
+
+@pytest.mark.slow
+@given(task_plans(jumps=False), st.lists(WHAT_COMES_BETWEEN, min_size=1, max_size=3), st.booleans())
+@LAW
+def test_faults_leave_nothing(plan: str, faults: list[tuple[str, int, int]], by_tasks: bool) -> None:
+    run, again = ran(plan), fresh()
+    for kind, point, task in faults:
+        injection = FAULTS[kind](task % len(run.tasks))
+        if by_tasks and run.notes:
+            again.at_note[1 + point % len(run.notes)] = injection
+        else:
+            again.at[1 + point % len(run.told)] = injection
+    ran(plan, run=again)
+    assert remains(again) + forgotten(again.notes) == []
 
 
 @pytest.mark.slow

@@ -81,14 +81,17 @@ class Run:
 
     def evaluate(self, text: str) -> Run:
         """Run TEXT, and let the run end."""
-        self._ended_by(lambda: self.interp.eval(text))
-        self._ended_by(self._finish)
-        return self
+        return self._ended(lambda: self.interp.eval(text))
 
     def call(self, name: str) -> Run:
         """Run the plan that is called NAME, and let the run end."""
-        self._ended_by(lambda: self.interp.call(name))
+        return self._ended(lambda: self.interp.call(name))
+
+    def _ended(self, work: Callable[[], Any]) -> Run:
+        self._ended_by(work)
         self._ended_by(self._finish)
+        while not self.interp.scheduler.posted.empty():  # an injection behind the last event
+            self._ended_by(self._finish)
         return self
 
     def _finish(self) -> None:

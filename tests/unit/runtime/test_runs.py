@@ -37,6 +37,22 @@ def test_a_failure_that_somebody_saw_is_not() -> None:
     assert run.outcome == " 5 None"
 
 
+def test_a_look_at_one_failed_task_does_not_hide_another() -> None:
+    plan = """(let ((one (spawn (fail :one))) (two (spawn (fail :two))))
+                (sleep 1) (task-status one) 5)"""
+    assert Run().evaluate(plan).outcome == " 5 failure :TWO"
+    assert Run().evaluate(f"(task-net (owner {plan}))").outcome == " failure :TWO None"
+
+
+def test_a_run_that_was_stopped_leaves_no_failure_to_the_next() -> None:
+    run = Run().evaluate(
+        "(progn (spawn (fail :lost)) (spawn (progn (sleep 1) (quit 3))) (spawn (sleep 9)) 5)"
+    )
+    assert run.outcome == " 5 stopped: quit"
+    run.begin()
+    assert run.evaluate("7").outcome == " 7 None"
+
+
 def test_a_call_within_a_task_is_part_of_it() -> None:
     run = Run().evaluate("(through (lambda () (task-net (a (through (lambda () (sleep 1) (note :a)))))))")
     assert run.lines == ["1 :A"]
