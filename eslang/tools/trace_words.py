@@ -23,6 +23,7 @@ WHY_ABORTED = {
     "guardian": "what it guarded is over",
     "owner": "its owner ends",
     "run": "the run ends",
+    "caller": "who awaits it was cancelled",
 }
 MANY = 4  # names that are listed
 
@@ -97,6 +98,8 @@ def waited_for(told: dict[str, Any]) -> str:
         return f"the next period, {seconds(of)}"
     if on == "sleep":
         return f"{seconds(of)} to pass"
+    if on == "outside":
+        return f"{value_text(of)}, outside"
     return on if of is None else f"{on} {value_text(of)}"
 
 
