@@ -82,7 +82,8 @@ class Guest:
         loop = self.loop
         if loop is not None and not self._roused:
             self._roused = True
-            self._roused = call_soon(loop, self._batch)
+            if not call_soon(loop, self._batch):
+                self._roused = False
 
     def _batch(self) -> None:
         """Give out turns for a while."""

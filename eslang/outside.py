@@ -145,10 +145,10 @@ class Outside:
     def _call_off(self, operation: Operation) -> None:
         """The current task leaves OPERATION: call it off and wait for its end, if that can be done."""
         operation.called_off = True
-        if operation.over:
-            return
         if operation.loop is None:
-            self.left = [each for each in self.left if not each.over] + [operation]
+            self.left = [each for each in (*self.left, operation) if each.work.is_alive()]
+            return
+        if operation.over:
             return
         operation.work.cancel()
         task = operation.wait.task
@@ -250,7 +250,7 @@ class Outside:
 
     def rest(self, seconds: float | None) -> None:
         """Sleep until something is posted, or for SECONDS; coroutines go on in our own loop."""
-        if self._end_the_lost():
+        if self._end_the_lost(blocked=True):
             return
         scheduler, loop = self.scheduler, None
         if self.operations and not scheduler.is_open and not any(map(self._can_end, self.operations)):
@@ -292,14 +292,17 @@ class Outside:
         """True if OPERATION may end while a plain call goes on."""
         return operation.loop is None or (self.is_own(operation.loop) and running_loop() is None)
 
-    def _end_the_lost(self) -> bool:
-        """End the waits for what cannot end and is not wanted, or has lost its loop; true if any."""
+    def _end_the_lost(self, blocked: bool = False) -> bool:
+        """End the waits for coroutines whose loop was closed; true if there are any.
+
+        The same for those that were called off, if a plain call has BLOCKED their loop.
+        """
         found = False
         for operation in self.operations:
             if operation.over or operation.loop is None:
                 continue
             closed = operation.loop.is_closed()
-            if closed or (operation.called_off and not self._can_end(operation)):
+            if closed or (blocked and operation.called_off and not self._can_end(operation)):
                 if closed:
                     operation.error = RuntimeError("the asyncio loop of this coroutine was closed")
                 operation.over = found = True

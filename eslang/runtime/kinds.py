@@ -31,14 +31,15 @@ FAILURE = Part("failure", "Failure", "the failure; its `origin` is the task that
 WAIT_ON = Part(
     "on",
     "str",
-    "what it is for: `events`, `checkpoint`, `end`, `tasks`, `leaving`, `condition`, `sleep`, `period`, …",
+    "what it is for: `events`, `checkpoint`, `end`, `tasks`, `leaving`, `condition`, `sleep`, `period`, "
+    "`outside` (a coroutine or a blocking call), …",
 )
 WAIT_OF = Part(
     "of",
     "value",
-    "what belongs to it: the events, (task, checkpoint), the task or tasks, the condition, the seconds",
+    "what belongs to it: the events, (task, checkpoint), tasks, the condition, the seconds, what it is",
 )
-WHY_INTERRUPT = Part("why", "str", "`guardian`, `deadline`, `deadlock`, `interrupt-task`, …")
+WHY_INTERRUPT = Part("why", "str", "`guardian`, `deadline`, `deadlock`, `interrupt-task`, `crash`, …")
 INTERRUPT_BY = Part("by", "Task | None", "the task that it comes from; none for a clock's")
 WAKES = Part("wakes", "list[Task]", "the tasks that waited for it, in their order")
 RAISED = Part("raised", "Place | None", "where the failure was raised")
@@ -76,7 +77,8 @@ TABLE = (
                 "why",
                 "str",
                 "`abort-task`; `net`: its net is decided; `guardian`: what it guarded is over; "
-                "`owner`: its owner ends; `run`: the run does",
+                "`owner`: its owner ends; `run`: the run does; "
+                "`caller`: the coroutine that awaits it was cancelled",
             ),
             Part("by", "Task | None", "the task that asks for it, or whose end decided it"),
         ),
