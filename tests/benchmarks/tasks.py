@@ -28,11 +28,25 @@ def works() -> Iterator[Work]:
     """The rows of single tasks."""
     agent = Interpreter(clock="virtual")
     agent.load(PROGRAM)
-    bare = Peer("bare greenlets, there and back", bare_switches, 3.5, ROUNDS)
-    sleeping = in_asyncio(asyncio_set_and_sleep)
+    yield from switches(agent)
+    yield from interrupts(agent)
+    yield Work(
+        "start and end a task",
+        lisp(agent, "lives"),
+        [
+            Peer("asyncio", in_asyncio(asyncio_lives), 1.3, ROUNDS),
+            Peer("trio", in_trio("lives"), None, ROUNDS),
+            Peer("threading", thread_lives, None, ROUNDS),
+        ],
+        ROUNDS,
+    )
+
+
+def switches(agent: Interpreter) -> Iterator[Work]:
+    """A signal, the waiter's turn, and the signaller's again."""
     peers = [
-        bare,
-        Peer("asyncio.Event, set and sleep(0)", sleeping, 0.5, ROUNDS),
+        Peer("bare greenlets, there and back", bare_switches, 3.5, ROUNDS),
+        Peer("asyncio.Event, set and sleep(0)", in_asyncio(asyncio_set_and_sleep), 0.5, ROUNDS),
         Peer("trio channel, one way", in_trio("send"), 0.5, ROUNDS),
     ]
     yield Work("signal, waiter runs, waits again: at the kernel", lambda: at_kernel(agent), peers, ROUNDS)
@@ -46,6 +60,10 @@ def works() -> Iterator[Work]:
         ],
         ROUNDS,
     )
+
+
+def interrupts(agent: Interpreter) -> Iterator[Work]:
+    """What reaches a task where it is blocked."""
     yield Work(
         "interrupt a blocked task with a cause; it recovers, waits again",
         lisp(agent, "nudges"),
@@ -59,16 +77,6 @@ def works() -> Iterator[Work]:
         "start a task, interrupt it with a cause, which ends it, join",
         lisp(agent, "stops"),
         [Peer("asyncio: the same with cancel", in_asyncio(asyncio_stops), None, ROUNDS)],
-        ROUNDS,
-    )
-    yield Work(
-        "start and end a task",
-        lisp(agent, "lives"),
-        [
-            Peer("asyncio", in_asyncio(asyncio_lives), 1.3, ROUNDS),
-            Peer("trio", in_trio("lives"), None, ROUNDS),
-            Peer("threading", thread_lives, None, ROUNDS),
-        ],
         ROUNDS,
     )
 

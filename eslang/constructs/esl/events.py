@@ -59,8 +59,6 @@ def defevent(form: Cons, environment: Any) -> Value:
 def arguments_of_signal(events: Value, test: Value) -> Arguments:
     """Wait for EVENTS; what came with the signal."""
     scheduler: Scheduler = running.session.scheduler
-    if events.__class__ is Event and test is None:
-        return scheduler.wait_for(events)
     listed = events is None or events.__class__ is Cons
     wanted = tuple(map(as_event, items(events))) if listed else (as_event(events),)
     for event in wanted:
@@ -76,6 +74,8 @@ def arguments_of_signal(events: Value, test: Value) -> Arguments:
 
 def wait_for_events_values(events: Value, test: Value = None) -> Value:
     """All the arguments that came with the signal."""
+    if events.__class__ is Event and test is None:
+        return pack(running.session.scheduler.wait_for(events))
     return pack(arguments_of_signal(events, test))
 
 
@@ -100,7 +100,10 @@ def wait_for_events(events: Value, test: Value = None) -> Value:
 
     Source: ESL §4.1. Where TEST is asked: decision 17.
     """
-    arguments = arguments_of_signal(events, test)
+    if events.__class__ is Event and test is None:  # as most are
+        arguments = running.session.scheduler.wait_for(events)
+    else:
+        arguments = arguments_of_signal(events, test)
     return arguments[0] if arguments else None
 
 

@@ -214,7 +214,7 @@ def yield_turn() -> Value:
     Source: ours.
     """
     scheduler = running.session.scheduler
-    scheduler.yield_turn(scheduler.at_work())
+    scheduler.yield_turn(scheduler.current or scheduler.at_work())
     return None
 
 
