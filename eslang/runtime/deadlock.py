@@ -110,7 +110,7 @@ def phrase(wait: Wait) -> str:
         case "end" | "tasks" | "leaving":
             return "the end of " + ", ".join([task.name for task in awaited(wait)])
         case "sleep":
-            return f"{shown(of)} seconds to pass"
+            return f"{float(of):g} seconds to pass"
         case "period":
             return "the next period"
         case "condition":

@@ -122,7 +122,7 @@ class Census:
         status, reason, place = self.status(task), self.reason(task), self.place(task)
         known = [f"{status} {reason}".rstrip(), *([f"at {place}"] if place else [])]
         lines = [f"{task.name}: {', '.join(known)}"]
-        lines += [f"  {title:<12}{text}" for title, text in self.particulars(task) if text]
+        lines += [f"  {title:<12}  {text}" for title, text in self.particulars(task) if text]
         return "\n".join(lines) + "\n"
 
     def particulars(self, task: Task) -> Iterator[tuple[str, str]]:

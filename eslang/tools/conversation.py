@@ -176,7 +176,9 @@ class Conversation:
     def note_fallen(self) -> None:
         """Remember, and remark, that tasks have failed whose failures the narrator has told."""
         for task in self.census.take_fallen():
-            self.failure = task.failure
+            assert task.failure is not None
+            self.failure = Failure(task.failure.cause, *task.failure.arguments)
+            self.failure.origin = task
             if self.remarks:
                 self.write_error(f"; task {task.name} has failed; :why tells more")
 
