@@ -60,9 +60,7 @@ class Clause(NamedTuple):
     cause: Value
     limit: int | None  # None: :infinite
     place: Value  # a list, as the compiler noted it
-    takes: Callable[[Failure], bool] | None = (
-        None  # HANDLER-BIND's own test; such a clause declines by returning
-    )
+    takes: Callable[[Failure], bool] | None = None  # HANDLER-BIND's own test; it declines by returning
 
 
 class Form:
