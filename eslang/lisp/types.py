@@ -352,7 +352,16 @@ def type_of(value: Value) -> Value:
 @function("(%define-type name expander)")
 def _define_type(name: Symbol, expander: Value) -> Value:
     """Let the type NAME be short for what EXPANDER makes of its arguments."""
-    if name in _SIMPLE or name in _COMPOUND:
-        raise simple_error("this names a type of Common Lisp:", name)
+    _check_type_name(name)
     define_type(name, Type(expand=to_function(expander)))
     return name
+
+
+@function("(%check-type-name name)")
+def _check_type_name(name: Symbol) -> Value:
+    """Fail if NAME is that of a type which a program cannot define."""
+    if name in _SIMPLE or name in _COMPOUND:
+        owner = "ESL" if name.package == "ESL" else "Common Lisp"
+        remedy = "choose another name, or shadow it in a package of your own"
+        raise simple_error(f"{name.name} is a type of {owner}; {remedy}")
+    return None

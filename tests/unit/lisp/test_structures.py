@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
 from eslang.base.symbols import Keyword
 from eslang.interpreter import Interpreter
@@ -35,3 +36,17 @@ def test_a_type_defined_again_as_it_was_keeps_its_structures() -> None:
         agent.eval("(defstruct point x y)")
         with pytest.raises(Failure):
             agent.call("point-x", point)
+
+
+@pytest.mark.parametrize(("name", "owner"), [("task", "ESL"), ("event", "ESL"), ("vector", "Common Lisp")])
+def test_a_structure_does_not_take_the_name_of_a_type_that_is_there(name: str, owner: str) -> None:
+    with Interpreter() as agent, pytest.raises(EslError, match=f"{name.upper()} is a type of {owner}"):
+        agent.eval(f"(defstruct {name} x)")
+
+
+def test_a_name_that_is_shadowed_is_free_for_a_structure() -> None:
+    with Interpreter() as agent:
+        agent.eval("(defpackage :mine (:use :cl :esl) (:shadow #:task)) (in-package :mine)")
+        agent.eval("(defstruct task x)")
+        assert agent.eval("(typep (make-task) 'task)") is True
+        assert agent.eval("(typep (esl:current-task) 'esl:task)") is True
