@@ -41,15 +41,6 @@ def fresh() -> Run:
         sys.setrecursionlimit(limit)
 
 
-def fresh() -> Run:
-    """A run to come, in a new interpreter that does not change the limit of the stack."""
-    limit = sys.getrecursionlimit()
-    try:
-        return Run()
-    finally:
-        sys.setrecursionlimit(limit)
-
-
 def ran(plan: str, *, shuffle: bool = False, seed: int = 0, run: Run | None = None) -> Run:
     """PLAN, run in a new interpreter, or in that of RUN; with the stack that plans have."""
     limit = sys.getrecursionlimit()
