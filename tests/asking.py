@@ -68,4 +68,7 @@ class Asking(Facts):
 
 def told(solution: Solution | None) -> str:
     """A solution as text: its values, in order."""
-    return "none" if solution is None else " ".join(prin1(value) for value in solution.values())
+    if solution is None:
+        return "none"
+    assert not any(isinstance(value, str | tuple) for value in solution.values()), "a code has got out"
+    return " ".join(prin1(value) for value in solution.values())

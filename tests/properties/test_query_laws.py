@@ -7,9 +7,11 @@ if something that was read has changed.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import combinations
 from typing import Any
 
+import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 
@@ -25,6 +27,14 @@ from naive.queries import TESTS, Goal, Rule, Term, Text, Unsafe, World, key, str
 
 LAW = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 CONNECTIVES = ("and", "or", "not")
+
+
+@pytest.fixture(autouse=True, scope="module")
+def small_buckets() -> Iterator[None]:
+    """Let a bucket be large when it has three rows."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("eslang.facts.relations.SMALL", 2)
+        yield
 
 
 def lisp(term: Term) -> Value:
@@ -44,6 +54,7 @@ def plain(value: Value) -> Term:
         return tuple(plain(part) for part in items(value))
     if value.__class__ is String:
         return Text(value.text)
+    assert not isinstance(value, str), "a code has got out"
     return value.name.lower() if isinstance(value, Symbol) else value
 
 

@@ -146,6 +146,21 @@ def test_solutions_are_those_of_the_moment_of_entry() -> None:
     assert facts.answers("(is-a ?x widget)") == ["W3"]
 
 
+def test_a_snapshot_of_many_facts_under_one_key_is_not_disturbed() -> None:
+    facts = Asking(*[f"(is-a w{number} widget)" for number in range(30)])
+    for query in ("(is-a ?x widget)", "(is-a ?x ?kind)", "(and (is-a ?x ?kind) (is-a ?y ?kind))"):
+        expected = facts.answers(query)
+        solutions = facts.solutions(read(query))
+        found = [told(next(solutions)) for _ in range(3)]
+        facts.retract(read("(is-a w2 widget)"))
+        found.append(told(next(solutions)))
+        facts.retract(read("(is-a w9 widget)"))
+        facts.add_all(map(read, ["(is-a w2 widget)", "(is-a w9 widget)", "(is-a w99 widget)"]))
+        found += [told(each) for each in solutions]
+        assert found == expected
+        facts.retract(read("(is-a w99 ?_)"))
+
+
 def test_a_test_may_change_the_facts_it_is_asked_about() -> None:
     facts = Asking("(p 1)", "(p 2)", "(p 3)")
     facts.call = lambda name, arguments: facts.add(read(f"(p {arguments[0] + 10})"))

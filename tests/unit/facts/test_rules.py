@@ -57,6 +57,19 @@ def test_rules_that_need_themselves_only_as_a_tail_are_walked() -> None:
     assert kinds == ["walked", "tabled", "tabled", "plain"]
 
 
+def test_a_tail_that_does_more_than_pass_its_answers_on_is_not_walked() -> None:
+    facts = with_rules(("((swap ?k ?a ?b) (next ?k ?j) (swap ?j ?b ?a))",), "(next 1 2)", "(next 2 3)")
+    facts.add(read("(swap 3 x y)"))
+    assert facts.answers("(swap 2 ?a ?b)") == ["Y X"]
+    assert facts.answers("(swap 1 ?a ?b)") == ["X Y"]
+    facts = with_rules(("((twin ?k ?a ?a) (next ?k ?j) (twin ?j ?a ?a))",), "(next 1 2)")
+    facts.add_all(map(read, ["(twin 2 x y)", "(twin 2 z z)"]))
+    assert facts.answers("(twin 1 ?a ?b)") == ["Z Z"]
+    facts = with_rules(("((up ?k ?a) (next ?k ?j) (up ?j ?_) (up ?j ?a))",), "(next 1 2)", "(next 2 3)")
+    facts.add(read("(up 3 x)"))
+    assert facts.answers("(up 1 ?a)") == ["X"]
+
+
 def test_facts_come_before_what_is_derived_and_rules_in_order() -> None:
     facts = with_rules(("((p ?x) (r ?x))", "((p ?x) (q ?x))"), "(q 1)", "(q 2)", "(r 3)", "(r 2)", "(p 4)")
     assert facts.answers("(p ?x)") == ["4", "3", "2", "1"]
