@@ -15,9 +15,9 @@ from eslang.runtime.tasks import Task
 if TYPE_CHECKING:
     from eslang.runtime.scheduler import Scheduler
 
-DEFVAR, QUOTE = (Symbol.intern(name, CL) for name in ("DEFVAR", "QUOTE"))
-EVENT, MAKE_EVENT, SIGNAL, WAIT_FOR_EVENTS = (
-    Symbol.intern(name, ESL) for name in ("EVENT", "MAKE-EVENT", "SIGNAL", "WAIT-FOR-EVENTS")
+DEFVAR, PROGN, QUOTE = (Symbol.intern(name, CL) for name in ("DEFVAR", "PROGN", "QUOTE"))
+EVENT, KEEP_EVENT, MAKE_EVENT, SIGNAL, WAIT_FOR_EVENTS = (
+    Symbol.intern(name, ESL) for name in ("EVENT", "%KEEP-EVENT", "MAKE-EVENT", "SIGNAL", "WAIT-FOR-EVENTS")
 )
 
 
@@ -38,7 +38,8 @@ def make_event(name: Value = None) -> Event:
 def defevent(form: Cons, environment: Any) -> Value:
     """Define the global variable NAME, which holds an event.
 
-    Python code signals it by that name. An event that is there already stays.
+    Python code signals it by that name. An event that is there already stays;
+    any other value makes way for one.
 
     Returns: NAME.
 
@@ -53,7 +54,18 @@ def defevent(form: Cons, environment: Any) -> Value:
     name = form.cdr.car
     if not isinstance(name, Symbol):
         raise type_error(name, "SYMBOL", "defevent")
-    return Cons(DEFVAR, Cons(name, Cons(lisp_list(MAKE_EVENT, lisp_list(QUOTE, name)), form.cdr.cdr)))
+    quoted = lisp_list(QUOTE, name)
+    definition = Cons(DEFVAR, Cons(name, Cons(lisp_list(MAKE_EVENT, quoted), form.cdr.cdr)))
+    return lisp_list(PROGN, definition, lisp_list(KEEP_EVENT, quoted))
+
+
+@function("(%keep-event name)", ESL)
+def keep_event(name: Symbol) -> Value:
+    """Let the variable NAME hold an event; the one that it holds, if it does. Return NAME."""
+    cell = running.session.image.cell(name)
+    if not isinstance(cell.value, Event):
+        cell.value = Event(name)
+    return name
 
 
 def arguments_of_signal(events: Value, test: Value) -> Arguments:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from eslang.interpreter import Interpreter
 from support import lines_of
 
 
@@ -24,3 +25,11 @@ def test_no_signal_is_lost_while_a_test_waits() -> None:
       (signaller (yield) (signal seen 1) (signal seen 2) (sleep 0.5) (signal seen 3)))
     """
     assert lines_of(text) == ["3"]
+
+
+def test_a_variable_that_held_something_else_holds_an_event_then() -> None:
+    with Interpreter() as agent:
+        agent.eval("(defvar bell 5) (defevent bell)")
+        assert agent.eval("(typep bell 'event)") is True
+        agent.eval("(defvar *kept* bell) (defevent bell)")
+        assert agent.eval("(eq bell *kept*)") is True
