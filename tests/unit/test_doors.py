@@ -80,7 +80,10 @@ def test_tasks_that_are_alive_keep_it_in_their_thread(agent: Interpreter) -> Non
 
 def test_tasks_whose_thread_is_gone_are_gone_too(agent: Interpreter) -> None:
     in_thread(lambda: agent.eval("(defvar *it* (spawn (progn (sleep 5) (wait-for-events go)))) (yield)"))
-    assert agent.eval("(list (task-status *it*) (task-net (a (sleep 0)) (b 7)))") == [Keyword("ABORTED"), None]
+    assert agent.eval("(list (task-status *it*) (task-net (a (sleep 0)) (b 7)))") == [
+        Keyword("ABORTED"),
+        None,
+    ]
     agent.finish()
 
 

@@ -1,0 +1,59 @@
+"""What tests of Python's concurrency around the tasks share."""
+
+from __future__ import annotations
+
+import asyncio
+import gc
+import io
+import threading
+import traceback
+from collections.abc import Callable, Coroutine, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from eslang import Interpreter
+
+
+@contextmanager
+def whole_agent(text: str, **given: Any) -> Iterator[Interpreter]:
+    """An interpreter that has evaluated TEXT; nothing is left of it, nor of what it started, afterwards."""
+    before = set(threading.enumerate())
+    with Interpreter(output=io.StringIO(), **given) as agent:
+        agent.eval(text)
+        yield agent
+    assert set(threading.enumerate()) == before
+    scheduler = agent.scheduler
+    assert (scheduler.current, scheduler.driver, agent.runs.root) == (None, None, None)
+    assert (len(scheduler.ready), len(scheduler.timers), scheduler.watching) == (0, 0, [])
+    assert (agent.runs.lives.count, dict(agent.runs.lives.tops), scheduler.outside) == (0, {}, 0)
+    assert not agent.outside.operations
+    assert scheduler.posted.empty()
+
+
+def run(main: Callable[[], Coroutine[Any, Any, Any]]) -> Any:
+    """Run MAIN in a loop that complains of all that is wrong, and leave no asyncio task behind."""
+    complaints: list[Any] = []
+
+    async def watched() -> Any:
+        asyncio.get_running_loop().set_exception_handler(lambda loop, about: complaints.append(about))
+        result = await main()
+        await asyncio.sleep(0)
+        assert asyncio.all_tasks() == {asyncio.current_task()}
+        return result
+
+    result = asyncio.run(watched(), debug=True)
+    gc.collect()
+    assert complaints == []
+    return result
+
+
+async def turns(number: int = 10) -> None:
+    """Let the loop go round a few times."""
+    for _ in range(number):
+        await asyncio.sleep(0)
+
+
+def functions_in(error: BaseException | None) -> list[str]:
+    """The functions that the traceback of ERROR passes."""
+    assert error is not None
+    return [frame.name for frame in traceback.extract_tb(error.__traceback__)]
