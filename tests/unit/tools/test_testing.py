@@ -110,3 +110,20 @@ def test_doubles_from_a_file_stand_in_for_devices(tmp_path: Path) -> None:
     )
     assert call(["test", "--doubles", doubles, path]).out.endswith("1 passed, 0 failed\n")
     assert call(["test", path]).code == 1
+
+
+def test_tasks_that_a_test_has_spawned_end_before_it_does(tmp_path: Path) -> None:
+    plan = written(
+        tmp_path,
+        "tasks.esl",
+        "(spawn (progn (sleep 5) (princ :late)))\n; expect: LATE\n"
+        "(deftest one (spawn (progn (sleep 1) (fail :unseen 3))) (expect t))\n"
+        "(deftest two (spawn (sleep 5) :daemon t) (spawn (sleep 1)) (expect t))",
+    )
+    code, out, _ = call(["test", plan])
+    assert code == 1
+    assert "failed with `:UNSEEN 3`" in out and out.endswith("2 passed, 1 failed\n")
+    lost = written(
+        tmp_path, "lost.esl", "(spawn (fail :lost))\n(print 1)\n; expect: 1\n; expect failure: :LOST\n"
+    )
+    assert call(["test", lost]).out.endswith("1 passed, 0 failed\n")
