@@ -1,4 +1,4 @@
-"""How calls in a running asyncio loop end: cancelled, stopped, finished, closed, and plain ones beside them."""
+"""How calls in a running asyncio loop end: cancelled, stopped, finished, closed; and plain ones there."""
 
 from __future__ import annotations
 
