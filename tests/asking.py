@@ -42,6 +42,7 @@ class Asking(Facts):
 
     def __init__(self, *facts: str) -> None:
         self.calls: list[str] = []  # of Lisp, in order
+        self.broken = False  # whether Lisp fails
         super().__init__(lambda name: name.name in LISP, self.call_lisp)
         for fact in facts:
             self.add(read(fact))
@@ -49,6 +50,8 @@ class Asking(Facts):
     def call_lisp(self, name: Symbol, arguments: list[Value]) -> bool:
         """Call a function of this Lisp."""
         self.calls.append(prin1(name))
+        if self.broken:
+            raise ZeroDivisionError
         return LISP[name.name](*arguments)
 
     def rule(self, text: str) -> bool:

@@ -17,6 +17,7 @@ from eslang.facts.unify import is_variable
 CL = "COMMON-LISP"
 AND, OR, NOT = (Symbol.intern(name, CL) for name in ("AND", "OR", "NOT"))
 UNBOUND = Keyword("UNBOUND-LOGIC-VARIABLE")
+FEW = range(200)  # terms; longer queries are rare, and some have no end
 CONNECTIVES = frozenset((AND, OR, NOT))
 ANYTHING = "?_"
 
@@ -84,7 +85,7 @@ Goal = Atom | Both | Either | Never
 
 
 def quick_tokens(query: Value, constants: Constants) -> Tokens | None:
-    """What read_query says of a plain pattern, and quickly; None or tokens that nobody knows for all else.
+    """What read_query says of plain patterns, and quickly; None or tokens that nobody knows for all else.
 
     Most queries say something of symbols, integers and variables. Nothing is
     checked here: queries that are wrong have no plan that these tokens find.
@@ -92,7 +93,9 @@ def quick_tokens(query: Value, constants: Constants) -> Tokens | None:
     try:
         tokens = [query.car]
         rest = query.cdr
-        while rest is not None:
+        for _ in FEW:
+            if rest is None:
+                return tuple(tokens)
             term = rest.car
             kind = term.__class__
             if kind is Symbol and "?" <= term.name < "@":
@@ -101,11 +104,15 @@ def quick_tokens(query: Value, constants: Constants) -> Tokens | None:
                 tokens.append(CONSTANT)
                 constants.append(term)
             else:
-                return None
+                inner = quick_tokens(term, constants) if tokens[0] in CONNECTIVES else None
+                if inner is None:
+                    return None
+                tokens += inner
+                tokens.append(CLOSE)
             rest = rest.cdr
-        return tuple(tokens)
     except AttributeError:  # no list
-        return None
+        pass
+    return None
 
 
 def read_query(query: Value, given: Given = NOTHING_GIVEN) -> tuple[Tokens, Constants]:

@@ -38,9 +38,7 @@ class Plan:
         bodies: list[Steps] = [steps, *(clause.steps for proc in procs for clause in proc.clauses)]
         self.tests = [name for body in bodies for name in tests(body)]
         self.is_fresh = any(proc.circle for proc in procs)  # what it remembers is for one run only
-        self.guessed: tuple[
-            Symbol, ...
-        ] = ()  # names that nobody had defined when it was made
+        self.guessed: tuple[Symbol, ...] = ()  # names that nobody had defined when it was made
         self.call = call
         self.compiled: dict[str, Compiled] = {}
         self.run_all: Callable[..., Any] | None = (
@@ -97,7 +95,7 @@ class Plan:
         """The solutions of this moment, one at a time."""
         compiled = self.functions(LAZY)
         view = View(compiled.accesses)
-        return Solutions(view, compiled.make(view.readers, self.call)(*constants))
+        return Solutions(view, lambda: compiled.make(view.readers, self.call)(*constants))
 
     def noting(self, constants: Constants, reads: Reads) -> Solution | None:
         """The first solution, and in READS what was read to find it."""
@@ -110,23 +108,38 @@ class Plan:
 
 
 class Solutions:
-    """The solutions of a query as they were when it was entered; found when they are asked for."""
+    """The solutions of a query as they were when it was entered; found when they are asked for.
 
-    __slots__ = ("_run", "_view")
+    Where a test fails or is left by a jump, the search is begun anew when the
+    next solution is wanted, on the same facts; what was told is not told again.
+    """
 
-    def __init__(self, view: View, run: Iterator[Solution]) -> None:
+    __slots__ = ("_begin", "_run", "_told", "_view")
+
+    def __init__(self, view: View, begin: Callable[[], Iterator[Solution]]) -> None:
         self._view = view
-        self._run = run
+        self._begin = begin
+        self._run: Iterator[Solution] | None = begin()
+        self._told = 0
 
     def __iter__(self) -> Iterator[Solution]:
         return self
 
     def __next__(self) -> Solution:
         try:
-            return next(self._run)
-        except BaseException:
-            self._view.close()
+            if self._run is None:
+                self._run = self._begin()
+                for _ in range(self._told):
+                    next(self._run)
+            found = next(self._run)
+        except StopIteration:
+            self.close()
             raise
+        except BaseException:
+            self._run = None
+            raise
+        self._told += 1
+        return found
 
     def close(self) -> None:
         """No more of them are wanted."""

@@ -100,13 +100,19 @@ class Facts(Store):
 
     def solutions(self, query: Value, given: Given = NOTHING_GIVEN) -> Solutions:
         """The solutions that QUERY has now, found one at a time, whatever is changed meanwhile."""
-        plan, constants = self.plan(query, given)
+        constants: Constants = []
+        plan = None if given else self.plans.get(quick_tokens(query, constants))
+        if plan is None:
+            plan, constants = self.plan(query, given)
         return plan.solutions(constants)
 
     def ask(self, query: Value, given: Given = NOTHING_GIVEN) -> tuple[Solution | None, Reads]:
         """The first solution of QUERY, if any, and what was read to know that."""
-        plan, constants = self.plan(query, given)
         reads = Reads()
+        constants: Constants = []
+        plan = None if given else self.plans.get(quick_tokens(query, constants))
+        if plan is None:
+            plan, constants = self.plan(query, given)
         return plan.noting(constants, reads), reads
 
     def explain(self, query: Value, given: Given = NOTHING_GIVEN) -> Explanation:

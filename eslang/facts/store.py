@@ -25,10 +25,11 @@ from eslang.facts.goals import (
 from eslang.facts.patterns import Pattern
 from eslang.facts.properties import overruled, unique_positions
 from eslang.facts.relations import Relation
-from eslang.facts.terms import DIRECT, Row, code_of, fact_of
+from eslang.facts.terms import DIRECT, Code, Row, code_of, fact_of
 from eslang.facts.unify import is_variable
 from eslang.facts.watching import Change, Watch, woken_by
 
+LONGEST = 1000  # arguments of a fact
 Subscriber = Callable[[Change], object]
 
 
@@ -78,10 +79,12 @@ class Store:
         name = fact.car
         if not isinstance(name, Symbol) or is_variable(name):
             raise type_error(name, "SYMBOL")
-        row = []
+        row: list[Code] = []
         rest = fact.cdr
         is_plain = True
         while rest.__class__ is Cons:
+            if len(row) == LONGEST:
+                raise type_error(fact, "FACT")
             term = rest.car
             rest = rest.cdr
             kind = term.__class__

@@ -108,6 +108,14 @@ def test_what_is_no_query_is_refused(query: str) -> None:
     assert caught.value.cause is not UNBOUND
 
 
+def test_a_query_without_an_end_is_refused() -> None:
+    query = read("(p a)")
+    query.cdr.cdr = query.cdr
+    for ask in (Asking().all, Asking().add, Asking().retract):
+        with pytest.raises(Failure):
+            ask(query)
+
+
 def test_bindings_that_are_given_constrain_a_query() -> None:
     facts = Asking(*DEVICES)
     assert facts.answers("(is-a ?x ?type)", x=read("w2")) == ["W2 WIDGET"]
@@ -146,6 +154,15 @@ def test_solutions_are_those_of_the_moment_of_entry() -> None:
     assert facts.answers("(is-a ?x widget)") == ["W3"]
 
 
+def test_a_snapshot_knows_what_was_a_fact() -> None:
+    facts = Asking("(p 1)", "(p 2)", "(p 3)", "(q 1)", "(q 2)")
+    solutions = facts.solutions(read("(and (p ?x) (q ?x))"))
+    assert told(next(solutions)) == "1"
+    facts.retract(read("(q 2)"))
+    facts.add(read("(q 3)"))
+    assert [told(each) for each in solutions] == ["2"]
+
+
 def test_a_snapshot_of_many_facts_under_one_key_is_not_disturbed() -> None:
     facts = Asking(*[f"(is-a w{number} widget)" for number in range(30)])
     for query in ("(is-a ?x widget)", "(is-a ?x ?kind)", "(and (is-a ?x ?kind) (is-a ?y ?kind))"):
@@ -166,6 +183,19 @@ def test_a_test_may_change_the_facts_it_is_asked_about() -> None:
     facts.call = lambda name, arguments: facts.add(read(f"(p {arguments[0] + 10})"))
     assert facts.answers("(and (p ?x) (evenp ?x))") == ["1", "2", "3"]
     assert len(facts) == 6
+
+
+def test_a_test_that_fails_ends_no_search() -> None:
+    failing = Asking("(p 2)", "(p 4)", "(p 6)")
+    solutions = failing.solutions(read("(and (p ?x) (evenp ?x))"))
+    assert told(next(solutions)) == "2"
+    failing.broken = True
+    with pytest.raises(ZeroDivisionError):
+        next(solutions)
+    failing.broken = False
+    failing.clear()
+    assert [told(each) for each in solutions] == ["4", "6"]
+    assert not any(relation.views for relation in failing.relations.values())
 
 
 def test_nobody_is_kept_waiting_for_a_snapshot_that_is_given_up() -> None:
