@@ -10,10 +10,12 @@ from __future__ import annotations
 from eslang.base.calls import depth
 from eslang.base.hints import Any, Callable, Iterator
 from eslang.base.symbols import Symbol, Value
+from eslang.facts.explain import Explanation, explain
 from eslang.facts.functions import ALL, FIRST, LAZY, Compiled, Question, compile_query
-from eslang.facts.goals import Constants, Tokens, shape_of
+from eslang.facts.goals import Atom, Constants, Tokens, shape_of
 from eslang.facts.procs import Planner, reached_from, tests
-from eslang.facts.relations import View
+from eslang.facts.relations import Relation, View
+from eslang.facts.rules import Name, Rule
 from eslang.facts.steps import Steps, may_repeat
 from eslang.facts.watching import Reads
 
@@ -74,6 +76,11 @@ class Plan:
         self.run_first = None if self.is_fresh else run
         return run(*constants)  # type: ignore[no-any-return]
 
+    def explain(self, constants: Constants) -> Explanation:
+        """How this plan finds its answers."""
+        self.runner(ALL)  # the indexes that it needs are there
+        return explain(self.question, constants)
+
     def _on_view(self, kind: str, constants: Constants, reads: Reads | None = None) -> Any:
         """What answers when Lisp is asked, too, which may change the facts."""
         compiled = self.functions(kind)
@@ -105,6 +112,17 @@ class Plan:
         compiled = self.functions(FIRST)
         readers = reads.through(compiled.accesses, compiled.accesses.readers())
         return compiled.make(readers, self.call)(*constants)  # type: ignore[no-any-return]
+
+
+def make_plan(
+    resolve: Callable[[Atom], Relation | None],
+    rules_of: Callable[[Name], list[Rule]],
+    tokens: Tokens,
+    constants: Constants,
+    call: Call,
+) -> Plan:
+    """The plan for a query; fails if the query is unsafe."""
+    return Plan(Planner(resolve, rules_of, constants), tokens, call)
 
 
 class Solutions:

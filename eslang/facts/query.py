@@ -7,17 +7,17 @@ when a rule or a declaration changes what they rest on.
 
 from __future__ import annotations
 
-from eslang.base.hints import Callable
+from eslang.base.hints import TYPE_CHECKING, Callable
 from eslang.base.symbols import Symbol, Value
-from eslang.facts.explain import Explanation, explain
-from eslang.facts.functions import ALL
 from eslang.facts.goals import NOTHING_GIVEN, Atom, Constants, Given, Tokens, quick_tokens, read_query
-from eslang.facts.plans import Call, Plan, Solution, Solutions
-from eslang.facts.procs import Planner
 from eslang.facts.relations import Relation
 from eslang.facts.rules import Name, Rule, Rules
 from eslang.facts.store import Store
 from eslang.facts.watching import Reads, woken_by_rules
+
+if TYPE_CHECKING:  # what plans is loaded when something is asked for the first time
+    from eslang.facts.explain import Explanation
+    from eslang.facts.plans import Call, Plan, Solution, Solutions
 
 
 class Facts(Store):
@@ -118,23 +118,20 @@ class Facts(Store):
     def explain(self, query: Value, given: Given = NOTHING_GIVEN) -> Explanation:
         """How QUERY is answered."""
         plan, constants = self.plan(query, given)
-        plan.runner(ALL)  # the indexes that it needs are there
-        return explain(plan.question, constants)
+        return plan.explain(constants)
 
     def plan(self, query: Value, given: Given = NOTHING_GIVEN) -> tuple[Plan, Constants]:
         """How QUERY is answered, and its constants."""
         tokens, constants = read_query(query, given)
         plan = self.plans.get(tokens) or self.guesses.get(tokens)
         if plan is None or any(map(self.is_call, plan.guessed)):
+            from eslang.facts.plans import make_plan
+
             self.guessed.clear()
-            plan = Plan(self.planner(constants), tokens, self.call)
+            plan = make_plan(self._resolve, self._rules_of, tokens, constants, self.call)
             plan.guessed = tuple(self.guessed)
             (self.guesses if plan.guessed else self.plans)[tokens] = plan
         return plan, constants
-
-    def planner(self, constants: Constants) -> Planner:
-        """What plans a query with these constants."""
-        return Planner(self._resolve, self._rules_of, constants)
 
     def _forget_plans(self) -> None:
         self.plans.clear()
