@@ -354,6 +354,8 @@ class Interpreter:
     def finish(self) -> None:
         """Wait for what was spawned, and abort the daemons. Raises a failure nobody saw."""
         with self.door():
+            if self._outside is not None:
+                self._outside.check_plain()
             self.runs.finish()
 
     async def finish_async(self) -> None:
@@ -365,6 +367,7 @@ class Interpreter:
         if self.closed:
             return
         self.runs.check_outside()
+        self.scheduler.is_open = False  # a cleanup that waits in vain is not waited for
         try:
             with self.at_work():
                 self.runs.abort_all()

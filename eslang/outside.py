@@ -236,6 +236,14 @@ class Outside:
         self.attach(loop)
         return self.guest
 
+    def check_plain(self) -> None:
+        """Refuse a plain call that waits for all tasks, if some wait for the very loop that it holds up."""
+        loop = running_loop()
+        if loop is not None and any(operation.loop is loop for operation in self.operations):
+            raise control_error(
+                "tasks await coroutines of this asyncio loop: `await` a `finish_async` instead"
+            )
+
     def offer_turns(self) -> None:
         """Let tasks that a call leaves alive go on in the asyncio loop that runs, if there is one."""
         loop = running_loop()

@@ -358,6 +358,7 @@ def test_a_cleanup_that_waits_in_vain_does_not_keep_close_waiting(agent: Interpr
     agent.eval(
         "(spawn (unwind-protect (unwind-protect (wait-for-events go) (wait-for-events go)) (note 1))) (yield)"
     )
+    agent.scheduler.is_open = True  # as with Interpreter(outside=True)
     agent.close()
     assert agent.value("*told*") == [1]
 

@@ -208,8 +208,30 @@ def test_a_plain_call_that_needs_the_loop_fails_at_once(agent: Interpreter) -> N
             agent.eval("(wait-for-task *fetching*)")
         assert caught.value.cause is Keyword("DEADLOCK")
         assert "the primitive fetch" in str(caught.value.arguments)
+        with pytest.raises(Failure, match="`finish_async`"):
+            agent.finish()
         await agent.finish_async()
         assert agent.eval("(wait-for-task *fetching*)") == 7
+
+    run(main)
+
+
+def test_a_plain_call_in_the_loop_may_wait_for_the_clock_and_for_threads(agent: Interpreter) -> None:
+    @agent.primitive
+    async def fetch() -> int:
+        await asyncio.sleep(0)
+        return 7
+
+    agent.primitive(name="work", blocking=True)(lambda: 8)
+    agent.eval("(defvar *fetching* nil) (defun begin () (setq *fetching* (spawn (fetch))) (yield))")
+
+    async def main() -> None:
+        await agent.call_async("begin")
+        assert agent.eval("(list (progn (sleep 5) (work)) (task-status *fetching*))") == [
+            8,
+            Keyword("WAITING"),
+        ]
+        await agent.finish_async()
 
     run(main)
 
