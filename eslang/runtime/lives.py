@@ -11,7 +11,7 @@ import sys
 from _weakref import ref
 
 from eslang.base.control import EndTask, Failed, Stop, Unwind
-from eslang.base.failure import Failure, control_error
+from eslang.base.failure import STACK_EXHAUSTED, Failure, control_error
 from eslang.base.hints import TYPE_CHECKING, Any, Callable
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Value
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from eslang.runtime.scheduler import Scheduler
 
 SPARE = 64  # stacks that are kept for tasks to come
+DEEPEST = 20_000  # tasks inside one another; it is found out now and then only, and before memory is used up
 UNSEEN = 16  # failed tasks that an owner remembers until somebody looks at them
 LEAVING = "leaving"  # the kind of a wait for the end of one that was aborted, which nothing cuts short
 
@@ -55,7 +56,9 @@ class Lives:
         parent: Task | None = None,
         on_end: Callable[[Task], None] | None = None,
     ) -> Task:
-        """A new task."""
+        """A new task. Fails with :stack-exhausted if tasks stand too deep inside one another."""
+        if self.count >= DEEPEST and not self.count & 1023 and parent is not None and parent.is_deep(DEEPEST):
+            raise Failure(STACK_EXHAUSTED)
         known = self._names.get(name, 0) + 1
         self._names[name] = known
         task = Task(name if known == 1 else f"{name}.{known}", body, parent)

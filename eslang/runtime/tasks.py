@@ -7,6 +7,8 @@ callable: nothing here knows what a form is, nor whose turn it is.
 
 from __future__ import annotations
 
+from itertools import islice
+
 from eslang.base.control import EndTask, Stop
 from eslang.base.failure import Failure
 from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Iterator
@@ -160,6 +162,10 @@ class Task(Event):
         while task is not None:
             yield task
             task = task.parent
+
+    def is_deep(self, depth: int) -> bool:
+        """True if DEPTH others, or more, own one another down to it."""
+        return next(islice(self.ancestors(), depth, None), None) is not None
 
     # --- interrupts ----------------------------------------------------------------
 

@@ -10,6 +10,8 @@ import pytest
 
 from eslang import interpreter
 from eslang.base.stack import STACK
+from eslang.runtime import lives
+from support import lines_of
 from trees.remains import remains
 from trees.running import Run
 
@@ -89,3 +91,16 @@ def test_interrupts_inside_one_another_do_not_exhaust_the_stack_of_c() -> None:
                             (setq done t)))
                (< 1000 n 5001))"""
     assert outcome(net) == "True"
+
+
+def test_nets_inside_one_another_without_end_fail(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lives, "DEEPEST", 1000)
+    text = """
+    (defun nest (n) (task-net (deeper (nest (+ n 1)))))
+    (with-recovery-procedures ((:stack-exhausted (abort (print :given-up))))
+      (nest 0))
+    (defun chain () (spawn (chain)))
+    (with-recovery-procedures ((:stack-exhausted (abort (print :given-up))))
+      (task-net (first (chain))))
+    """
+    assert lines_of(text) == [":GIVEN-UP", ":GIVEN-UP"]
