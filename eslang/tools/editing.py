@@ -13,6 +13,7 @@ import asyncio
 import os
 import sys
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, TextIO
 
@@ -30,10 +31,11 @@ from prompt_toolkit.styles import Style
 from eslang.base.diagnostics import EslError, IncompleteInput
 from eslang.base.spans import Source
 from eslang.tools.conversation import PROMPT, Conversation
+from eslang.tools.interrupts import PATIENCE, Interrupts
 from eslang.tools.names import known_names, signature_of
 from eslang.tools.opening import Outlet
 from eslang.tools.tokens import incomplete_word, indentation, open_lists, tokens
-from eslang.tools.words import WORDS
+from eslang.tools.words import WORDS, Leave
 
 BURST = 0.02  # seconds that tasks go on between two looks at the keys
 POLL = 0.05  # seconds between two looks at what goes on outside
@@ -90,22 +92,23 @@ class Editor:
         self.outlet.stream = conversation.errors = sys.stderr = above  # type: ignore[assignment]
         tasks = asyncio.ensure_future(self._go_on(above))
         try:
-            return await self.session.prompt_async()
+            text = await self.session.prompt_async()
         finally:
             tasks.cancel()
             await asyncio.wait([tasks])
             self.interp.output.fresh_line()
             self.outlet.stream, conversation.errors, sys.stderr = above.stream, errors, errors
             above.show()
+        if not tasks.cancelled() and isinstance(tasks.exception(), Leave):
+            tasks.result()
+        return text
 
     async def _go_on(self, above: Above) -> None:
-        """Let tasks go on, for as long as somebody types; if one quits, so does the editor."""
-        loop = asyncio.get_running_loop()
+        """Let tasks go on, for as long as somebody types; what ends that ends the typing, too."""
         scheduler = self.interp.scheduler
         try:
             while True:
-                end = loop.time() + BURST
-                pause = self.conversation.burst(lambda end=end: loop.time() >= end)  # type: ignore[misc]
+                pause = self._burst()
                 if pause != 0:
                     self.interp.output.fresh_line()
                 if above.has_lines:
@@ -113,11 +116,46 @@ class Editor:
                 longest = POLL if scheduler.outside else LONG
                 await asyncio.sleep(longest if pause is None else min(pause, longest))
         except Exception as reason:
-            self.session.app.exit(exception=reason)
+            with suppress(Exception):  # somebody has just pressed Enter
+                self.session.app.exit(exception=reason)
+            if isinstance(reason, Leave):
+                raise
+
+    def _burst(self) -> float | None:
+        """Let tasks go on for a little, or until Ctrl-C; the seconds until one of them goes on."""
+        loop = asyncio.get_running_loop()
+        end = loop.time() + BURST
+        interrupts = Interrupts(self.interp, patience=PATIENCE, gentle=True)
+        with CtrlCSignals(self.session.input.fileno()), interrupts:
+            return self.conversation.burst(lambda: loop.time() >= end or interrupts.code is not None)
 
     def toolbar(self) -> str | None:
         """The signature of the operator whose arguments are being typed."""
         return signature_at(self.interp, self.session.default_buffer.document.text_before_cursor)
+
+
+class CtrlCSignals:
+    """While entered, Ctrl-C is a signal, although a program reads the keys: a task may keep it from that."""
+
+    def __init__(self, terminal: int) -> None:
+        self.terminal = terminal
+        self.before: list[Any] | None = None
+
+    def __enter__(self) -> None:
+        with suppress(ImportError):
+            import termios
+
+            self.before = termios.tcgetattr(self.terminal)
+            changed = [*self.before[:6], [*self.before[6]]]
+            changed[3] |= termios.ISIG | termios.NOFLSH
+            changed[6][termios.VSUSP] = changed[6][termios.VQUIT] = b"\0"
+            termios.tcsetattr(self.terminal, termios.TCSANOW, changed)
+
+    def __exit__(self, *_: object) -> None:
+        if self.before is not None:
+            import termios
+
+            termios.tcsetattr(self.terminal, termios.TCSANOW, self.before)
 
 
 class Above:

@@ -14,7 +14,7 @@ from typing import Any, TextIO
 
 from eslang.base.control import Stop
 from eslang.tools.conversation import PROMPT, Conversation
-from eslang.tools.interrupts import INTERRUPTED, Interrupts, Turns
+from eslang.tools.interrupts import INTERRUPTED, PATIENCE, Interrupts, Turns
 from eslang.tools.lines import Lines, can_be_awaited
 from eslang.tools.narrator import narrate, narrate_ends
 from eslang.tools.opening import Opened, Outlet, readable
@@ -25,7 +25,6 @@ from eslang.tools.tokens import Balance
 from eslang.tools.words import Leave
 
 WRONG = 65
-PATIENCE = 3  # Ctrl-C may be pressed so often before it ends the session
 
 WELCOME = """\
 eslang {version}. Type a form; :help tells what else can be said, :quit or Ctrl-D ends.

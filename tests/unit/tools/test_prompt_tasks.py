@@ -211,7 +211,7 @@ def test_at_a_terminal_tasks_go_on_above_the_prompt(kind: str, tmp_path: Path) -
         terminal.type("\x03")
         terminal.until(r"tick\n")
         terminal.type(":tasks\r")
-        terminal.until(r"clock +waiting +for the next period(.|\n)*f +ready")
+        terminal.until(r"clock +(waiting +for the next period|ready)(.|\n)*f +ready")
         terminal.type("(spawn (fail :lost))\r")
         terminal.until(r"Failure :LOST, no recovery available.\n; task fail has failed; :why tells more\n")
         terminal.type('(spawn (with-cleanup-procedure (princ "cleaned") (loop)))\r')
