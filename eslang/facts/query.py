@@ -12,7 +12,7 @@ from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import NOTHING_GIVEN, Atom, Constants, Given, Tokens, quick_tokens, read_query
 from eslang.facts.relations import Relation
 from eslang.facts.rules import Name, Rule, Rules
-from eslang.facts.store import Store
+from eslang.facts.store import MANY, Store
 from eslang.facts.watching import Reads, woken_by_rules
 
 if TYPE_CHECKING:  # what plans is loaded when something is asked for the first time
@@ -128,6 +128,8 @@ class Facts(Store):
             from eslang.facts.plans import make_plan
 
             self.guessed.clear()
+            if len(self.plans) + len(self.guesses) >= MANY:
+                self._forget_plans()
             plan = make_plan(self._resolve, self._rules_of, tokens, constants, self.call)
             plan.guessed = tuple(self.guessed)
             (self.guesses if plan.guessed else self.plans)[tokens] = plan

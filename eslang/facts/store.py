@@ -13,6 +13,7 @@ from eslang.base.hints import Callable, Iterable, Iterator
 from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import (
+    CONNECTIVES,
     Atom,
     Constants,
     Tokens,
@@ -30,6 +31,7 @@ from eslang.facts.unify import is_variable
 from eslang.facts.watching import Change, Watch, woken_by
 
 LONGEST = 1000  # arguments of a fact
+MANY = 2000  # shapes of queries that are remembered
 Subscriber = Callable[[Change], object]
 
 
@@ -77,8 +79,6 @@ class Store:
         if fact.__class__ is not Cons:
             raise type_error(fact, "LIST")
         name = fact.car
-        if not isinstance(name, Symbol) or is_variable(name):
-            raise type_error(name, "SYMBOL")
         row: list[Code] = []
         rest = fact.cdr
         is_plain = True
@@ -96,7 +96,11 @@ class Store:
             row.append(term)
         if rest is not None:
             raise type_error(fact, "LIST")
-        relation = self.relations.get((name, len(row))) or self.relation(name, len(row))
+        relation = self.relations.get((name, len(row)))
+        if relation is None:
+            if not isinstance(name, Symbol) or is_variable(name) or name in CONNECTIVES:
+                raise type_error(name, "RELATION")
+            relation = self.relation(name, len(row))
         if relation.is_plain and not is_plain:
             self.became_coded(relation)
         return relation, tuple(row)
@@ -154,6 +158,8 @@ class Store:
             if not isinstance(atom, Atom):
                 raise type_error(pattern, "FACT")
             relation = self.relation(atom.name, len(atom.terms))
+            if len(self._patterns) >= MANY:
+                self._patterns.clear()
             found = self._patterns[tokens] = Pattern(relation, atom.terms)
         return found.relation, found.rows(constants)
 

@@ -25,6 +25,7 @@ from eslang.facts.rules import UNSTRATIFIED
 from eslang.facts.watching import Change, unwatch, watch
 from naive.queries import TESTS, Goal, Rule, Term, Text, Unsafe, World, key, strata, variables
 
+pytestmark = pytest.mark.slow
 LAW = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 CONNECTIVES = ("and", "or", "not")
 

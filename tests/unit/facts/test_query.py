@@ -219,6 +219,14 @@ def test_queries_that_differ_in_constants_share_a_plan() -> None:
     assert len(facts.plans) == 1
 
 
+def test_plans_are_not_kept_without_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("eslang.facts.query.MANY", 3)
+    facts = Asking(*DEVICES)
+    for number in range(10):
+        assert facts.answers(f"(is-a ?x{number} gadget)") == ["G1"]
+    assert len(facts.plans) <= 3
+
+
 def test_a_name_that_becomes_a_relation_is_no_test_any_more() -> None:
     facts = Asking("(p 2)")
     assert facts.answers("(and (p ?x) (evenp ?x))") == ["2"]

@@ -52,7 +52,7 @@ def test_update_puts_a_fact_in_the_place_of_others() -> None:
     assert facts.held() == ["(TOTAL 7)"]
 
 
-@pytest.mark.parametrize("text", ["a", "((a) b)", "(1 2)", "(a . b)", "(?x 1)", "nil"])
+@pytest.mark.parametrize("text", ["a", "((a) b)", "(1 2)", "(a . b)", "(?x 1)", "nil", "(not (p))"])
 def test_what_is_no_fact_is_refused(text: str) -> None:
     with pytest.raises(Failure):
         Asking().add(read(text))
