@@ -19,7 +19,7 @@ from eslang.base.text import String
 from eslang.runtime.events import Event, Wait
 from eslang.runtime.lives import LEAVING
 from eslang.runtime.story import Place, nearest_place
-from eslang.runtime.tasks import Task
+from eslang.runtime.tasks import FAILED, SUCCEEDED, Task
 
 DEADLOCK = Keyword("DEADLOCK")
 
@@ -156,7 +156,28 @@ def why_no_signal(events: Iterable[Event], alive: list[Task]) -> tuple[str, str]
     form = f"(signal {shown(names[0]) if names else 'event'})"
     if could:
         return f"{', '.join(could)} could signal it", f"let {could[0]} come to its `{form}`"
+    for task in ended(alive):
+        if any(promises(task, "signal", name) for name in names):
+            return why_signal_is_lost(task, form)
     return "no task that is left signals it by name", f"let a task that does not wait `{form}`"
+
+
+def ended(alive: list[Task]) -> list[Task]:
+    """The tasks that have ended among those for whose ends others wait together."""
+    found: list[Task] = []
+    for task in alive:
+        if task.wait is not None and task.wait.kind == "tasks":
+            found += [other for other in task.wait.of if other.status is not None]
+    return found
+
+
+def why_signal_is_lost(task: Task, form: str) -> tuple[str, str]:
+    """Why nobody heard TASK, which has ended and whose text has the signal FORM; and what would help."""
+    if task.status is SUCCEEDED:
+        advice = f"let the wait begin before `{form}`, or use a checkpoint, which is recorded"
+        return f"{task.name} has ended; a signal that nobody waits for is lost", advice
+    how = "has failed" if task.status is FAILED else "was aborted"
+    return f"{task.name}, which signals it, {how}", f"let {task.name} come to its `{form}`"
 
 
 def promises(task: Task, kind: str, of: Value) -> bool:

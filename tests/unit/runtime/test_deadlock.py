@@ -106,3 +106,19 @@ def test_an_abort_that_comes_between_a_deadlock_and_its_task_leaves_no_child() -
     run.at = {told.index("deadlock") + 1: stop}
     assert remains(run.evaluate(plan)) == []
     assert "stopped" in run.outcome
+
+
+@pytest.mark.parametrize(
+    ("body", "why"),
+    [
+        ("(signal *e1*)", "b has ended; a signal that nobody waits for is lost"),
+        ("(fail :x) (signal *e1*)", "b, which signals it, has failed"),
+        ("(abort-task (current-task)) (signal *e1*)", "b, which signals it, was aborted"),
+        ("(signal *e2*)", "no task that is left signals it by name"),
+    ],
+)
+def test_who_has_ended_and_would_have_signalled_is_told(body: str, why: str) -> None:
+    text = f"""
+        (with-recovery-procedures (((:deadlock main-one first-one) (abort (third first-one))))
+          (task-net :allow-failures (a (sleep 1) (wait-for-events *e1*)) (b {body})))"""
+    assert trace_of(text)[-1] == why
