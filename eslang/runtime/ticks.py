@@ -35,12 +35,13 @@ class Ticks:
 
         A jump that leaves a safepoint must not use them up, since loops farther
         out draw from them: so it is raised by a part of the slice, not by the
-        giver of slices.
+        giver of slices. The inner chain gives the parts, so that a tick comes
+        through the outer one alone.
         """
-        return chain.from_iterable(iter(self._slices, None))
+        return chain.from_iterable(chain.from_iterable(iter(self._slices, None)))
 
-    def _slice(self) -> Iterable[None]:
-        return chain(repeat(None, SLICE), iter(self._pass, None))
+    def _slice(self) -> Iterable[Iterator[None]]:
+        return repeat(None, SLICE), iter(self._pass, None)
 
     def _pass(self) -> None:
         self.source = self.make()  # these ticks are being drawn from, and may not be from elsewhere
