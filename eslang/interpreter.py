@@ -22,7 +22,7 @@ from eslang.base.many import values_list
 from eslang.base.packages import Package
 from eslang.base.printer import prin1
 from eslang.base.resolve import resolve_in
-from eslang.base.running import to_function
+from eslang.base.running import running, to_function
 from eslang.base.spans import Source, Spans
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import String
@@ -330,7 +330,7 @@ class Interpreter:
 
     def interrupt(self, reason: str = "interrupted", code: int = 130) -> None:
         """Stop what runs, soon, with its cleanups; safe to call from a signal handler."""
-        if self.runs.lives.count:
+        if self.runs.lives.count or running.session is self:
             self.ticks.stop(Stop(reason, code))
             self.scheduler.post(lambda: None)  # whoever rests is to look
 

@@ -295,6 +295,14 @@ def test_an_interrupt_while_nothing_runs_stops_nothing(agent: Interpreter) -> No
     assert agent.eval("(dotimes (i 5000 :done))") is Keyword("DONE")
 
 
+def test_an_interrupt_reaches_what_runs_outside_of_any_task(agent: Interpreter, tmp_path: Any) -> None:
+    plan = tmp_path / "plan.esl"
+    agent.primitive(name="press")(agent.interrupt)
+    plan.write_text("(defmacro endless () (press) (loop)) (defun main () (endless))")
+    with pytest.raises(Stop):
+        agent.check([plan])
+
+
 # --- finish and close -------------------------------------------------------------------
 
 
