@@ -50,6 +50,9 @@ class Failure(Exception):
         shown = " ".join([str(self.cause), *(str(a) for a in self.arguments)])
         return f"failure {shown}"
 
+    def __repr__(self) -> str:
+        return f"{self.__class__.__name__}({', '.join(map(repr, (self.cause, *self.arguments)))})"
+
     def print_lisp(self, settings: Any) -> str:
         """How the printer shows it: for people, as a sentence."""
         from eslang.base.failure_text import message_of  # made of what prints, and it of failures

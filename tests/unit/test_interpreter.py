@@ -86,6 +86,7 @@ def test_a_failure_that_nothing_recovers_is_raised(agent: Interpreter) -> None:
         agent.eval("""(fail :grip-lost 4 "left" '(1 (2)) nil t)""")
     assert caught.value.cause is Keyword("GRIP-LOST")
     assert caught.value.arguments == (4, "left", [1, [2]], None, True)
+    assert repr(caught.value) == "Failure(Keyword('GRIP-LOST'), 4, 'left', [1, [2]], None, True)"
 
 
 def test_a_failure_of_a_loaded_file_is_raised(agent: Interpreter, tmp_path: Path) -> None:
