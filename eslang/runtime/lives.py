@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 SPARE = 64  # stacks that are kept for tasks to come
 DEEPEST = 20_000  # tasks inside one another; it is found out now and then only, and before memory is used up
+DEEPEST = 500  # interrupts of one task inside one another: the ends of time slices use the stack of C
 UNSEEN = 16  # failed tasks that an owner remembers until somebody looks at them
 LEAVING = "leaving"  # the kind of a wait for the end of one that was aborted, which nothing cuts short
 
@@ -243,9 +244,12 @@ class Lives:
 
     def obey(self, task: Task, interrupt: Interrupt) -> None:
         """Do what INTERRUPT asks of TASK, the current one, on top of its stack."""
+        if task.obeying >= DEEPEST:
+            raise RecursionError("too many interrupts inside one another")
         hooks, left = self.session.hooks, True
         if hooks.listeners:
             self.tell("interrupt", why=interrupt.kind, by=interrupt.by)
+        task.obeying += 1
         try:
             failures.guarded(interrupt.action)
             left = False
@@ -253,6 +257,7 @@ class Lives:
             jump.failed = True  # what it leaves is cleaned up
             raise
         finally:
+            task.obeying -= 1
             if hooks.listeners:
                 self.tell("interrupt-ended", why=interrupt.kind, left=left)
 

@@ -13,7 +13,6 @@ import sys
 from itertools import chain, repeat
 from types import FrameType
 
-from eslang.base.calls import reenter
 from eslang.base.control import Stop
 from eslang.base.hints import Any, Callable, Iterable, Iterator
 
@@ -45,7 +44,7 @@ class Ticks:
 
     def _pass(self) -> None:
         self.source = self.make()  # these ticks are being drawn from, and may not be from elsewhere
-        reenter(self.safepoint, ())  # from C, and an interrupt taken there may come to a safepoint too
+        self.safepoint()
 
     def stop(self, stop: Stop) -> None:
         """Let the run end, soon; safe to call from a signal handler."""

@@ -68,6 +68,7 @@ def of_task(task: Any) -> dict[str, Any]:
         "a wait": task.wait,
         "an end to come": task.ending,
         "the interrupts": task.interrupts,
+        "the interrupts under way": task.obeying,
         "the children": task.children,
         "a turn to come": task.queued,
         "the body": task.body,

@@ -89,7 +89,7 @@ def test_interrupts_inside_one_another_do_not_exhaust_the_stack_of_c() -> None:
                          (b (dotimes (k 5000) (interrupt-task a (lambda () (incf n) (dotimes
                              (i 9000)))) (yield))
                             (setq done t)))
-               (< 1000 n 5001))"""
+               (< 100 n 5001))"""
     assert outcome(net) == "True"
 
 
