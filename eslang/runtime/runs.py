@@ -12,7 +12,6 @@ from eslang.base.failure import Failure, control_error
 from eslang.base.hints import Any, Callable
 from eslang.base.symbols import Keyword, Value
 from eslang.runtime import failures
-from eslang.runtime.deadlock import deadlock, family, whom_to_tell
 from eslang.runtime.gate import Gate, stack_here
 from eslang.runtime.lives import passed_on
 from eslang.runtime.scheduler import Scheduler
@@ -116,6 +115,8 @@ class Runs:
 
     def _forget_all(self) -> None:
         """Forget the tasks: their stacks have gone with their thread."""
+        from eslang.runtime.deadlock import family
+
         for task in family(self.lives.tops):
             task.status = ABORTED
         self.lives.tops.clear()
@@ -203,6 +204,8 @@ class Runs:
 
     def end_deadlock(self) -> None:
         """Nothing can wake anything: the task that the run waits for fails with :deadlock."""
+        from eslang.runtime.deadlock import deadlock, family, whom_to_tell
+
         roots = [*([self.root] if self.root is not None else []), *self.lives.tops]
         failure = deadlock(family(roots))
         task = whom_to_tell(next((each for each in roots if not each.daemon), roots[0]))
