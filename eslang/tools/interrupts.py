@@ -18,7 +18,7 @@ from eslang.base.control import Stop
 from eslang.base.hints import Any
 
 INTERRUPTED, TIME_LIMIT = 130, 124
-GRACE = 2.0  # seconds that cleanups have after the time limit
+GRACE = 5.0  # seconds that cleanups have after the time limit
 PATIENCE = 3  # at a prompt, Ctrl-C may be pressed so often before it ends the session
 STRETCH = 0.01  # seconds of processor time after which a task that only calls lets others have their turn
 ENTRY = (lambda: None).__code__.co_code[0]  # the instruction at which every function begins

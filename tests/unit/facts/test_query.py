@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from asking import LISP, Asking, bound, read, told
 
+from asking import LISP, Asking, bound, read, told
 from eslang.base.failure import Failure
 from eslang.base.printer import prin1
 from eslang.base.text import String

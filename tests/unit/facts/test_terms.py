@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from asking import read
 
+from asking import read
 from eslang.base.failure import Failure
 from eslang.base.lists import Cons, from_items
 from eslang.base.printer import prin1

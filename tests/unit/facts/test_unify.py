@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from asking import read
 
+from asking import read
 from eslang.base.printer import prin1
 from eslang.facts.unify import Patterns, is_same_pattern, match
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from asking import Asking, read
-
 from eslang.facts.watching import Change, Watch, unwatch, watch
 
 
