@@ -90,7 +90,7 @@ class Dynamic:
 
     def __init__(self) -> None:
         self.forms: Form | None = None
-        self.answering: list[Failure] = []  # innermost last
+        self.answering: list[tuple[Failure, Form]] = []  # who answers what, innermost last
         self.catches: list[tuple[Value, Any]] = []  # (tag, token), innermost last
         self.jumps = Jumps()
         self.logical: dict[Value, Value] = {}  # what logic variables are bound to
@@ -167,7 +167,7 @@ def answer(failure: Failure, continuable: bool) -> Value:
             procedure, arguments = form.procedures[index], failure.arguments
             logical, dynamic.logical = dynamic.logical, form.logical
             dynamic.forms = form
-            dynamic.answering.append(failure)
+            dynamic.answering.append((failure, form))
             try:
                 value = spread(procedure, arguments) if arguments else procedure()
             except Unwind as jump:
@@ -207,7 +207,7 @@ def _offer(session: Any, form: Form, index: int, failure: Failure) -> None:
         return
     saved, dynamic.forms = dynamic.forms, form.outer
     logical, dynamic.logical = dynamic.logical, form.logical
-    dynamic.answering.append(failure)
+    dynamic.answering.append((failure, form))
     try:
         form.procedures[index](failure)
     except Unwind as jump:

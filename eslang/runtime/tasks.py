@@ -28,13 +28,30 @@ ANYWHERE = 10**9  # the level of an interrupt that cleanups do not hold off
 
 
 class Extent:
-    """What an interrupt belongs to, a form that a task is in; it comes only while the task is inside."""
+    """What an interrupt belongs to, a form that a task is in; it comes only while the task is inside.
 
-    __slots__ = ("level", "live")
+    A recovery procedure of a form farther out, which answers a failure inside,
+    is not inside, although the form is not left yet: the interrupt waits until
+    that is over (ESL §2.1: the scope of procedures).
+    """
+
+    __slots__ = ("answers", "forms", "level", "live")
 
     def __init__(self, dynamic: Dynamic) -> None:
         self.live = True
         self.level = dynamic.held  # a cleanup that runs around the form does not hold the interrupt off
+        self.forms = dynamic.forms
+        self.answers = len(dynamic.answering)
+
+    def is_suspended(self, dynamic: Dynamic) -> bool:
+        """True while a procedure of a form around it answers a failure."""
+        for _, form in dynamic.answering[self.answers :]:
+            around = self.forms
+            while around is not None:
+                if around is form:
+                    return True
+                around = around.outer
+        return False
 
 
 class StandStill:
@@ -172,8 +189,10 @@ class Task(Event):
     # --- interrupts ----------------------------------------------------------------
 
     def may_take(self, interrupt: Interrupt) -> bool:
-        """True if INTERRUPT can reach it where it stands: no cleanup or WITHOUT-INTERRUPTS holds it off."""
-        dynamic = self.dynamic
+        """True if INTERRUPT can reach it where it stands: nothing there holds it off."""
+        dynamic, extent = self.dynamic, interrupt.extent
+        if extent.__class__ is Extent and dynamic.answering and extent.is_suspended(dynamic):
+            return False
         return dynamic.held <= interrupt.level and (not dynamic.masked or interrupt.urgent)
 
     def next_interrupt(self) -> Interrupt | None:

@@ -234,10 +234,10 @@ function("(%abort-as-value form result)", ESL)(AbortNow)
 
 
 def _answered(name: str) -> Failure:
-    answering: list[Failure] = running.session.dynamic.answering
+    answering: list[tuple[Failure, Form]] = running.session.dynamic.answering
     if not answering:
         raise control_error(f"{name} is called outside a recovery procedure")
-    return answering[-1]
+    return answering[-1][0]
 
 
 @function("(failure-cause)", ESL)

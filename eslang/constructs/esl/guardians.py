@@ -35,7 +35,7 @@ def with_guardian(form: Cons, environment: Any) -> Value:
             :done)
         :DONE
 
-    Source: ESL §4.4.
+    Source: ESL §4.4; procedures that answer from outside: decision 23.
     """
     guard, alarm, body = form.cdr.car, form.cdr.cdr.car, form.cdr.cdr.cdr
     return lisp_list(GUARD, making_of_form(guard), closure(alarm), from_items([LAMBDA, None], body))

@@ -170,3 +170,37 @@ def test_a_guarded_task_may_be_deadlocked_with_its_guardian() -> None:
         ':DEADLOCK ("main" "the condition nil")'
         ' ("wait-for-events" "event alarm" "no task that is left signals it by name")'
     )
+
+
+def test_a_procedure_outside_the_body_is_not_interrupted_by_the_guardian_inside() -> None:
+    text = """
+    (print (with-recovery-procedures ((:low (sleep 5) (abort :home)))
+             (with-guardian (sleep 3) (fail :guard) (sleep 1) (fail :low))))
+    (print (with-recovery-procedures ((:low (sleep 5) (abort :home)))
+             (with-deadline (3) (sleep 1) (fail :low))))
+    """
+    assert lines_of(text) == [":HOME", ":HOME"]
+
+
+def test_the_interrupt_comes_when_the_body_goes_on() -> None:
+    text = """
+    (print (with-recovery-procedures ((:guard (abort :guarded)) (:low (sleep 5) :mended))
+             (with-guardian (sleep 3) (fail :guard)
+               (sleep 1)
+               (print (fail :low))
+               (sleep 1))))
+    """
+    assert lines_of(text) == [":MENDED", ":GUARDED"]
+
+
+def test_guardians_around_the_form_and_inside_the_procedure_do_interrupt_it() -> None:
+    text = """
+    (print (with-recovery-procedures ((:late (abort :late)))
+             (with-guardian (sleep 3) (fail :late)
+               (with-recovery-procedures ((:low (sleep 5) (abort :home))) (sleep 1) (fail :low)))))
+    (print (with-recovery-procedures
+               ((:low (with-recovery-procedures ((:late (abort :on-the-way)))
+                        (with-guardian (sleep 1) (fail :late) (sleep 5)))))
+             (with-guardian (sleep 3) (fail :guard) (fail :low))))
+    """
+    assert lines_of(text) == [":LATE", ":ON-THE-WAY"]
