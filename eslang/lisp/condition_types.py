@@ -77,6 +77,9 @@ class Condition(Failure):
         self.slots = slots
         self.arguments = self._arguments()
 
+    def __repr__(self) -> str:
+        return f"{self.__class__.__name__}({self.kind.name}, {self.slots})"
+
     def __str__(self) -> str:
         """For Python; it may be its own argument, and its report may be Lisp."""
         return super().__str__() if self.kind.standard else f"failure {self.cause}"

@@ -115,14 +115,19 @@ def next_line(conversation: Conversation, lines: Lines, outlet: Outlet) -> str:
             output.fresh_line()
             standing.prompt()
         output.flush()
+        at_ease(lambda: lines.rest(seconds))
+
+    def at_ease(look: Callable[[], bool]) -> bool:
+        """What LOOK says, which Ctrl-C leaves: a terminal then drops what was typed."""
         interrupts.resting = True
-        lines.rest(seconds)
+        found = interrupts.code is not None or look()  # it may have been pressed just before
         interrupts.resting = False
+        return found
 
     outlet.stream, output.column = standing, 0  # type: ignore[assignment]
     try:
         with interrupts:
-            conversation.go_on(lambda: interrupts.code is not None or lines.is_ready(), rest)
+            conversation.go_on(lambda: at_ease(lines.is_ready), rest)
             if interrupts.code is not None:
                 raise KeyboardInterrupt
     finally:
