@@ -8,7 +8,7 @@ from __future__ import annotations
 import platform
 import sys
 
-from tests.benchmarks import compute, crowds, memory, reading, recovery, starting, tasks
+from tests.benchmarks import compute, crowds, facts, memory, reading, recovery, starting, tasks
 from tests.benchmarks.measure import Row, measure
 
 ROOMS = {
@@ -17,6 +17,7 @@ ROOMS = {
     "tasks": tasks,
     "crowds": crowds,
     "memory": memory,
+    "facts": facts,
     "starting": starting,
     "reading": reading,
 }
