@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from eslang.runtime.scheduler import Scheduler
 
 SPARE = 64  # stacks that are kept for tasks to come
-DEEPEST = 20_000  # tasks inside one another; it is found out now and then only, and before memory is used up
-DEEPEST = 500  # interrupts of one task inside one another: the ends of time slices use the stack of C
+NESTED = 20_000  # tasks inside one another; it is found out now and then only, and before memory is used up
+OBEYING = 500  # interrupts of one task inside one another: the ends of time slices use the stack of C
 UNSEEN = 16  # failed tasks that an owner remembers until somebody looks at them
 LEAVING = "leaving"  # the kind of a wait for the end of one that was aborted, which nothing cuts short
 
@@ -58,7 +58,7 @@ class Lives:
         on_end: Callable[[Task], None] | None = None,
     ) -> Task:
         """A new task. Fails with :stack-exhausted if tasks stand too deep inside one another."""
-        if self.count >= DEEPEST and not self.count & 1023 and parent is not None and parent.is_deep(DEEPEST):
+        if self.count >= NESTED and not self.count & 1023 and parent is not None and parent.is_deep(NESTED):
             raise Failure(STACK_EXHAUSTED)
         known = self._names.get(name, 0) + 1
         self._names[name] = known
@@ -244,7 +244,7 @@ class Lives:
 
     def obey(self, task: Task, interrupt: Interrupt) -> None:
         """Do what INTERRUPT asks of TASK, the current one, on top of its stack."""
-        if task.obeying >= DEEPEST:
+        if task.obeying >= OBEYING:
             raise RecursionError("too many interrupts inside one another")
         hooks, left = self.session.hooks, True
         if hooks.listeners:

@@ -94,7 +94,7 @@ def test_interrupts_inside_one_another_do_not_exhaust_the_stack_of_c() -> None:
 
 
 def test_nets_inside_one_another_without_end_fail(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lives, "DEEPEST", 1000)
+    monkeypatch.setattr(lives, "NESTED", 1000)
     text = """
     (defun nest (n) (task-net (deeper (nest (+ n 1)))))
     (with-recovery-procedures ((:stack-exhausted (abort (print :given-up))))
@@ -104,3 +104,17 @@ def test_nets_inside_one_another_without_end_fail(monkeypatch: pytest.MonkeyPatc
       (task-net (first (chain))))
     """
     assert lines_of(text) == [":GIVEN-UP", ":GIVEN-UP"]
+
+
+INSIDE = "(defun inside (n) (if (= n 0) :bottom (nth-value 0 (task-net (next (inside (1- n)))))))"
+
+
+@pytest.mark.slow
+def test_nets_may_stand_thousands_deep_inside_one_another() -> None:
+    assert lines_of(f"{INSIDE} (print (inside 3000))") == [":BOTTOM"]
+
+
+@pytest.mark.slow
+def test_nets_too_deep_inside_one_another_exhaust_the_stack() -> None:
+    form = "(with-recovery-procedures ((:stack-exhausted (abort (print :too-deep)))) (inside 40000))"
+    assert lines_of(f"{INSIDE} {form}") == [":TOO-DEEP"]
