@@ -16,7 +16,7 @@ from eslang.base.control import Stop
 from eslang.base.decoding import decode, file_bytes
 from eslang.base.diagnostics import Diagnostic, EslError, error_at
 from eslang.base.failure import UNBOUND_VARIABLE, Failure
-from eslang.base.hints import TYPE_CHECKING, Any, Callable, F, Iterable, Iterator, NoReturn, overload
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, F, Iterable, Iterator, overload
 from eslang.base.image import PACKAGE, Image
 from eslang.base.many import values_list
 from eslang.base.packages import Package
@@ -49,20 +49,11 @@ if TYPE_CHECKING:
 
     from eslang.compile.toplevel import Compiler
     from eslang.constructs.esl.doubles import Double
+    from eslang.facts.query import Facts
     from eslang.outside import Outside
     from eslang.reader.reader import Reading
 
-COMES = "needs the logical database, which this version of eslang does not have yet"
 DEEPEST = 400_000  # Python frames; what is deeper is a :stack-exhausted failure
-
-
-def coming(name: str, when: str) -> property:
-    """The attribute NAME of an interpreter that comes with a later version: to use it says so."""
-
-    def refuse(agent: Interpreter) -> NoReturn:
-        raise AttributeError(f"Interpreter.{name} {when}", name=name, obj=agent)
-
-    return property(refuse)
 
 
 class Interpreter:
@@ -100,6 +91,7 @@ class Interpreter:
         self.hooks = Hooks(self.clock.now, lambda: self.scheduler.current)
         self.closed = False
         self._outside: Outside | None = None
+        self._database: Facts | None = None
         self.touched = 0  # how often a plan read what may change by itself
         self._library = True  # what is defined now is the library's
         self.support = {**SUPPORT, **self.bindings.support(), **failures.SUPPORT, "%ticks": self.ticks}
@@ -349,6 +341,15 @@ class Interpreter:
             self._outside = Outside(self)
         return self._outside
 
+    @property
+    def database(self) -> Facts:
+        """Its logical database, made when first wanted."""
+        if self._database is None:
+            from eslang.database import make_database
+
+            self._database = make_database(self)
+        return self._database
+
     # --- ends --------------------------------------------------------------------
 
     def finish(self) -> None:
@@ -382,9 +383,6 @@ class Interpreter:
         if not self.closed:
             await self.outside.at_call().close()
             self.close()
-
-    if not TYPE_CHECKING:  # a property: a __getattr__ would slow all of the session's attributes down
-        facts = coming("facts", COMES)
 
     def __enter__(self) -> Interpreter:
         return self

@@ -9,7 +9,7 @@ those who watch are woken, once.
 from __future__ import annotations
 
 from eslang.base.failure import type_error
-from eslang.base.hints import Callable, Iterable, Iterator
+from eslang.base.hints import Callable, Iterable, Iterator, Sequence
 from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import (
@@ -43,6 +43,8 @@ class Store:
         self.properties: dict[Symbol, None] = {}
         self.known: dict[Symbol, None] = {}  # names that have, or had, facts
         self.subscribers: list[Subscriber] = []
+        self.audience: Sequence[object] = ()  # while there is one, TELL is called with each change, too
+        self.tell: Subscriber = lambda change: None
         self._patterns: dict[Tokens | None, Pattern] = {}  # that were asked for by RETRACT and UPDATE
         self._changes: list[tuple[Relation, Change]] = []  # made, and not told yet
         self._telling = False
@@ -192,13 +194,13 @@ class Store:
             self.known[relation.name] = None
             self.became_relation(relation.name)
         relation.add(row)
-        if relation.watched or self.subscribers:
+        if relation.watched or self.subscribers or self.audience:
             self._changes.append((relation, Change(True, relation.name, row)))
         return True
 
     def _remove(self, relation: Relation, row: Row) -> None:
         relation.remove(row)
-        if relation.watched or self.subscribers:
+        if relation.watched or self.subscribers or self.audience:
             self._changes.append((relation, Change(False, relation.name, row)))
 
     def became_relation(self, name: Symbol) -> None:
@@ -219,6 +221,8 @@ class Store:
             calls: list[tuple[Subscriber, Change]] = []
             woken: dict[Watch, Change] = {}
             for relation, change in told:
+                if self.audience:
+                    calls.append((self.tell, change))
                 calls += [(subscriber, change) for subscriber in self.subscribers]
                 for watch in woken_by(relation, change.row):
                     woken.setdefault(watch, change)

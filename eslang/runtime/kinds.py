@@ -196,6 +196,12 @@ TABLE = (
         ),
     ),
     Kind(
+        "fact",
+        "a fact came or went; the change that it belongs to is whole",
+        "none",
+        (Part("added", "bool", "it came"), Part("fact", "list", "the fact")),
+    ),
+    Kind(
         "run-stopped",
         "the run is to end: Ctrl-C, the time limit, QUIT",
         HERE,

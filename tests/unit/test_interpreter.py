@@ -300,14 +300,6 @@ def test_a_primitive_may_use_its_own_interpreter(agent: Interpreter) -> None:
     assert agent.eval("(square-of-sum 1 2 3)") == 36
 
 
-# --- what comes later ---------------------------------------------------------------
-
-
-def test_what_comes_with_later_versions_says_so(agent: Interpreter) -> None:
-    with pytest.raises(AttributeError, match=r"Interpreter.facts needs .* does not have yet"):
-        getattr(agent, "facts")  # noqa: B009
-
-
 def test_an_unknown_attribute_is_pythons_error(agent: Interpreter) -> None:
     with pytest.raises(AttributeError, match="has no attribute 'evaluat'"):
         getattr(agent, "evaluat")  # noqa: B009
