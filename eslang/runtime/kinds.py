@@ -198,7 +198,7 @@ TABLE = (
     Kind(
         "fact",
         "a fact came or went; the change that it belongs to is whole",
-        "none",
+        HERE,
         (Part("added", "bool", "it came"), Part("fact", "list", "the fact")),
     ),
     Kind(

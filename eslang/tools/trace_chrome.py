@@ -22,6 +22,7 @@ INSTANTS = {
     "abort",
     "deadlock",
     "goal",
+    "fact",
     "period-missed",
     "run-stopped",
     "signal",

@@ -34,6 +34,7 @@ SIGNS = {
     "abort": "⊘",
     "signal": "▸",
     "checkpoint": "▸",
+    "fact": "+",
     "deadlock": "!",
 }
 WAITING, WORKING = "┊", "│"
@@ -257,6 +258,8 @@ class Lanes:
         sign, about = SIGNS.get(record.kind, "•"), subject(record)
         if record.kind == "task-ended":
             sign = MARKS.get(record.told["status"], "?")
+        elif record.kind == "fact" and not record.told["added"]:
+            sign = "−"
         cells = [sign if name == about else self._cell(name) for name in self.columns[: self.widest]]
         if record.kind == "task-ended" and about in self.columns:
             self.columns[self.columns.index(about)] = None

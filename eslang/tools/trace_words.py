@@ -186,5 +186,6 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "cleanup-ended": lambda told: "leaves its cleanup" if told["left"] else "has cleaned up",
     "deadlock": _deadlock,
     "goal": _goal,
+    "fact": lambda told: f"{'asserts' if told['added'] else 'retracts'} {value_text(told['fact'])}",
     "run-stopped": lambda told: f"the run is stopped: {told['reason']} (exit {told['code']})",
 }

@@ -12,6 +12,7 @@ const MARKS = { // kind: [colour, shape, rank]
   "run-stopped": ["bad", "bar", 8], "recovery": ["recover", "turn", 7], "failure-taken": ["recover", "turn", 7],
   "interrupt": ["interrupt", "bolt", 6], "abort": ["abort", "stop", 6], "period-missed": ["recover", "dot", 5],
   "goal": ["goal", "flag", 4], "checkpoint": ["signal", "box", 3], "signal": ["signal", "wedge", 3],
+  "fact": ["fact", "ring", 2],
 };
 const ENDS = { succeeded: ["good", "tick"], failed: ["bad", "cross"], aborted: ["abort", "stop"] };
 const LEGEND = [
@@ -21,7 +22,7 @@ const LEGEND = [
   ["arrow", "start", "starts"], ["arrow", "join", "end awaited"], ["mark", "failure", "failure"],
   ["mark", "recovery", "recovery"], ["mark", "signal", "signal"], ["mark", "checkpoint", "checkpoint"],
   ["mark", "failure-passed", "failure of another"], ["mark", "period-missed", "period missed"], ["mark", "run-stopped", "run stopped"],
-  ["mark", "goal", "goal"], ["end", "succeeded", "succeeded"], ["end", "aborted", "aborted"],
+  ["mark", "goal", "goal"], ["mark", "fact", "fact"], ["end", "succeeded", "succeeded"], ["end", "aborted", "aborted"],
 ];
 const state = { scale: "balanced", from: 0, to: 1, hover: null, chosen: null, off: new Set(), shut: new Set(), find: "", row: 26 };
 const head = $("head"), lanes = $("lanes"), scroll = $("scroll"), tip = $("tip"), more = $("more");
@@ -96,7 +97,7 @@ function size(canvas, w, h) {
 function readInk() {
   const style = getComputedStyle(document.documentElement);
   for (const name of ["back", "panel", "ink", "dim", "faint", "line", "stripe", "hover", "focus", "run", "wait", "wait-ink", "wait-edge",
-    "sleep", "sleep-ink", "sleep-edge", "recover", "cleanup", "interrupt", "good", "bad", "abort", "open", "signal", "start", "join", "goal"])
+    "sleep", "sleep-ink", "sleep-edge", "recover", "cleanup", "interrupt", "good", "bad", "abort", "open", "signal", "start", "join", "goal", "fact"])
     ink[name] = style.getPropertyValue("--" + name).trim();
 }
 const ask = () => { if (!asked) { asked = true; requestAnimationFrame(draw); } };
@@ -271,6 +272,7 @@ function glyph(pen, shape, x, y, r, colour, halo) {
   else if (shape === "wedge") { path([-0.7, -0.85], [0.95, 0], [-0.7, 0.85]); pen.fill(); }
   else if (shape === "box") { pen.fillRect(-r * 0.7, -r * 0.7, r * 1.4, r * 1.4); }
   else if (shape === "flag") { path([-0.5, 1], [-0.5, -0.9], [0.9, -0.4], [-0.5, 0.1]); pen.stroke(); pen.fill(); }
+  else if (shape === "ring") { pen.beginPath(); pen.arc(0, 0, r * 0.55, 0, 7); pen.stroke(); }
   else if (shape === "bar") { pen.fillRect(-1, -r * 2, 2, r * 4); }
   else { pen.beginPath(); pen.arc(0, 0, r * 0.62, 0, 7); pen.fill(); }
   pen.restore();
