@@ -9,6 +9,7 @@ from typing import Any
 from eslang.base.printer import prin1
 from eslang.base.spans import Source
 from eslang.base.symbols import Symbol, Value
+from eslang.facts.nested import Written, filled
 from eslang.facts.plans import Solution
 from eslang.facts.query import Facts
 from eslang.interpreter import Interpreter
@@ -37,6 +38,11 @@ def bound(name: str) -> Symbol:
     return Symbol(name)
 
 
+def as_datum(argument: Value) -> Value:
+    """An argument of a test, all of whose text is data."""
+    return filled(*argument) if argument.__class__ is Written else argument
+
+
 class Asking(Facts):
     """A database that reads text."""
 
@@ -52,7 +58,7 @@ class Asking(Facts):
         self.calls.append(prin1(name))
         if self.broken:
             raise ZeroDivisionError
-        return LISP[name.name](*arguments)
+        return LISP[name.name](*map(as_datum, arguments))
 
     def rule(self, text: str) -> bool:
         """Take a rule, (head body...)."""

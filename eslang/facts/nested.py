@@ -2,13 +2,50 @@
 
 from __future__ import annotations
 
-from eslang.base.hints import Callable
+from eslang.base.hints import Callable, NamedTuple
 from eslang.base.lists import Cons
-from eslang.base.symbols import Symbol, Value
+from eslang.base.symbols import Keyword, Symbol, Value
+from eslang.base.text import String
 from eslang.facts.goals import ANYTHING, Constant, Nested, Term
 from eslang.facts.terms import Code, code_of, value_of
+from eslang.facts.unify import is_variable
 
 Leaf = Symbol | Constant
+ITSELF = frozenset((int, float, Keyword, String, type(None)))  # classes of what is its own value for Lisp
+
+
+class Written(NamedTuple):
+    """An argument of a test as the program has it, and the values of the variables in it."""
+
+    form: Value
+    bindings: dict[Symbol, Value]
+
+
+def filled(form: Value, bindings: dict[Symbol, Value]) -> Value:
+    """FORM with the values of its variables."""
+    if form.__class__ is Cons:
+        return Cons(filled(form.car, bindings), filled(form.cdr, bindings))
+    return bindings[form] if is_variable(form) else form
+
+
+def written(code: Code) -> Value:
+    """The argument of a test that is coded in CODE: itself, unless Lisp is to find out what it means."""
+    value = value_of(code)
+    return value if value.__class__ in ITSELF else Written(value, {})
+
+
+def written_with(term: Nested) -> Callable[..., Written]:
+    """What makes an argument of TERM, given codes for its leaves."""
+    leaves = leaves_of(term)
+    build = builder(term)
+
+    def make(*codes: Code) -> Written:
+        pairs = list(zip(leaves, codes, strict=True))
+        form = build(*[leaf if isinstance(leaf, Symbol) else code for leaf, code in pairs])
+        bindings = {leaf: value_of(code) for leaf, code in pairs if isinstance(leaf, Symbol)}
+        return Written(value_of(form), bindings)
+
+    return make
 
 
 def leaves_of(term: Term | None) -> list[Leaf]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.symbols import Symbol
 from eslang.facts.goals import ANYTHING, Constant, Nested, Term
-from eslang.facts.nested import Leaf, builder, leaves_of, matcher
+from eslang.facts.nested import Leaf, builder, leaves_of, matcher, written, written_with
 from eslang.facts.procs import Proc
 from eslang.facts.relations import Access
 from eslang.facts.steps import Absent, Branch, Look, Present, Steps, Test
@@ -104,7 +104,7 @@ class Body:
     def _claim(self, step: Test | Absent | Present, scope: Scope) -> str:
         """The Python expression that is true if STEP is."""
         if isinstance(step, Test):
-            values = "".join(f"{self._value(term, scope)}, " for term in step.atom.terms)
+            values = "".join(f"{self._argument(term, scope)}, " for term in step.atom.terms)
             return f"call({self.source.object(step.atom.name)}, [{values}])"
         if isinstance(step, Absent):
             return f"not {self._exists(step.steps, scope)}"
@@ -237,9 +237,14 @@ class Body:
         leaves = ", ".join(self.expression(leaf, scope) for leaf in leaves_of(term))
         return f"{self.source.object(builder(term))}({leaves})"
 
-    def _value(self, term: Term, scope: Scope) -> str:
-        """The Python expression for the value of TERM."""
-        return self.source.value(self.expression(term, scope))
+    def _argument(self, term: Term, scope: Scope) -> str:
+        """The Python expression for TERM as the argument of a test."""
+        if isinstance(term, Constant):
+            return f"{self.source.object(written)}({self.expression(term, scope)})"
+        if isinstance(term, Symbol):
+            return self.source.value(scope[term])
+        leaves = ", ".join(self.expression(leaf, scope) for leaf in leaves_of(term))
+        return f"{self.source.object(written_with(term))}({leaves})"
 
 
 TABLE_NAMES = ("t", "have", "fresh")

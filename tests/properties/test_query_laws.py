@@ -15,6 +15,7 @@ import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 
+from asking import as_datum
 from eslang.base.failure import Failure
 from eslang.base.lists import Cons, from_items, items
 from eslang.base.symbols import Symbol, Value
@@ -61,7 +62,7 @@ def plain(value: Value) -> Term:
 
 def call(name: Symbol, arguments: list[Value]) -> bool:
     """Ask one of the oracle's tests."""
-    return TESTS[name.name.lower()](*map(plain, arguments))
+    return TESTS[name.name.lower()](*[plain(as_datum(argument)) for argument in arguments])
 
 
 def database(facts: list[Goal]) -> Facts:
