@@ -28,13 +28,16 @@ class Facts(Store):
         self.is_call = is_call
         self.call = call
         self.declared: dict[Symbol, list[int]] = {}  # names, and the arities they were declared with
+        self.arguments: dict[Name, tuple[Symbol, ...]] = {}  # what they are called, where that is declared
         self.rules = Rules(self.is_test)
         self.plans: dict[Tokens | None, Plan] = {}
         self.guesses: dict[Tokens, Plan] = {}  # plans with names that nobody defined yet
         self.guessed: dict[Symbol, None] = {}  # these names, while a plan is made
 
-    def declare(self, name: Symbol, arity: int | None = None) -> None:
-        """Let NAME be a relation, of ARITY if that is told."""
+    def declare(self, name: Symbol, arity: int | None = None, arguments: tuple[Symbol, ...] = ()) -> None:
+        """Let NAME be a relation, of ARITY if that is told, whose ARGUMENTS are called so if that is."""
+        if arguments:
+            self.arguments[name, len(arguments)] = arguments
         arities = self.declared.setdefault(name, [])
         if arity is not None and arity not in arities:
             arities.append(arity)
