@@ -25,7 +25,7 @@ from eslang.tools.endings import QUIT
 from eslang.tools.interrupts import INTERRUPTED
 from eslang.tools.meanwhile import Meanwhile, Rest
 from eslang.tools.report import bug_report, remark
-from eslang.tools.words import WORDS, Leave
+from eslang.tools.words import WORDS, Leave, Word
 
 PROMPT = "? "
 
@@ -80,23 +80,22 @@ class Conversation:
             self.refuse(text, error)
             return ""
         while True:
+            begun = done
             try:
                 reading = next(readings, None)
+                if reading is None:
+                    return ""
+                start, done = extent(text, reading.span)
+                word, argument, done = said_with(reading, readings, text, done)
             except EslError as error:
                 if isinstance(error, IncompleteInput) and not last:
-                    return text[done:]
-                self.refuse(text[done:], error)
+                    return text[begun:]
+                self.refuse(text[begun:], error)
                 return ""
-            if reading is None:
-                return ""
-            start, done = extent(text, reading.span)
-            word = WORDS.get(reading.form) if isinstance(reading.form, Keyword) else None
-            if word is not None and word.takes_name:
-                done = end_of_line(text, done)
             if self.echo:
                 self.show(text[start:done])
             if word is not None:
-                word.answer(self, text[start:done].partition(" ")[2].strip())
+                word.answer(self, argument)
             elif not self.answer(reading):
                 return ""
             self.settle()
@@ -117,10 +116,19 @@ class Conversation:
 
     def answer(self, reading: Any) -> bool:
         """Evaluate one form and print what comes of it; false if it was interrupted."""
-        form = reading.form
-        self.history.begin(form)
+        self.history.begin(reading.form)
+
+        def tell(values: list[Value]) -> None:
+            self.history.end(reading.form, values)
+            for value in values:
+                self.print_value(value)
+
+        return self.attempt(lambda: self.interp.evaluate(reading), tell)
+
+    def attempt(self, work: Callable[[], Any], tell: Callable[[Any], object]) -> bool:
+        """Do WORK and TELL what it gave, or say what went wrong; false if it was interrupted."""
         try:
-            values = self.interp.evaluate(reading)
+            given = work()
         except Failure as failure:
             self.note_fallen()
             self.failure = failure  # the narrator has spoken
@@ -134,9 +142,7 @@ class Conversation:
         except Exception as bug:
             self.write_error(bug_report(bug))
         else:
-            self.history.end(form, values)
-            for value in values:
-                self.print_value(value)
+            tell(given)
         self.output.fresh_line()
         return True
 
@@ -236,6 +242,18 @@ def source_of(text: str, name: str) -> Source:
     from eslang.base.decoding import decode
 
     return decode(text.encode("utf-8", "surrogateescape"), name)
+
+
+def said_with(reading: Any, readings: Any, text: str, done: int) -> tuple[Word | None, Any, int]:
+    """The word that READING is, if it is one, what it is said of, and where in TEXT that ends."""
+    word = WORDS.get(reading.form) if isinstance(reading.form, Keyword) else None
+    if word is None or not (word.takes_name or word.takes_form):
+        return word, None, done
+    end = end_of_line(text, done)
+    if word.takes_name:
+        return word, text[done:end].strip(), end
+    behind = next(readings, None) if end > done else None
+    return word, *((behind.form, extent(text, behind.span)[1]) if behind is not None else (None, done))
 
 
 def end_of_line(text: str, start: int) -> int:

@@ -32,7 +32,7 @@ from eslang.base.diagnostics import EslError, IncompleteInput
 from eslang.base.spans import Source
 from eslang.tools.conversation import PROMPT, Conversation
 from eslang.tools.interrupts import PATIENCE, Interrupts
-from eslang.tools.names import known_names, signature_of
+from eslang.tools.names import known_names, relations, signature_of
 from eslang.tools.opening import Outlet
 from eslang.tools.tokens import incomplete_word, indentation, open_lists, tokens
 from eslang.tools.words import WORDS, Leave
@@ -41,6 +41,7 @@ BURST = 0.02  # seconds that tasks go on between two looks at the keys
 POLL = 0.05  # seconds between two looks at what goes on outside
 LONG = 3600.0
 NAMED = [str(name).lower() for name, word in WORDS.items() if word.takes_name]
+FORMS = [str(name).lower() for name, word in WORDS.items() if word.takes_form]
 
 STYLE = Style.from_dict(
     {
@@ -239,7 +240,7 @@ class TokenLexer(Lexer):
 
 
 class NameCompleter(Completer):
-    """Completes names that mean something in the current package, the prompt's own words, and tasks."""
+    """Completes names that mean something in the current package, its own words, tasks, relations."""
 
     def __init__(self, conversation: Conversation) -> None:
         self.conversation = conversation
@@ -257,10 +258,13 @@ class NameCompleter(Completer):
         """What may stand behind the text BEFORE and begin with WORD, with a remark on each."""
         if before in NAMED:
             yield from [(name.upper(), "") for name in self.conversation.census.names()]
+        elif before in FORMS:
+            yield from relations(self.conversation.interp)
         elif word.startswith(":") and not before:
             yield from [(str(name), "") for name in WORDS]
         elif word:
             yield from known_names(self.conversation.interp)
+            yield from relations(self.conversation.interp)
 
 
 class KeptHistory(FileHistory):

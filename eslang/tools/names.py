@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from eslang.base.image import Cell
@@ -52,3 +52,12 @@ def known_names(interp: Any) -> Iterator[tuple[str, str]]:
             definition = interp.definition(symbol)
             found[symbol.name] = definition.signature if definition is not None else ""
     yield from sorted(found.items())
+
+
+def relations(interp: Any) -> Iterable[tuple[str, str]]:
+    """The names of the relations of the database, each with a pattern of it; in alphabetical order."""
+    from eslang.tools.fact_tables import FactTables
+
+    tables = FactTables(interp.database, 80)
+    found = {named.name.name: tables.pattern(named) for named in tables.relations()}
+    return sorted(found.items())

@@ -15,8 +15,8 @@ import time
 from collections.abc import Callable
 from threading import Event, RLock, Thread
 from typing import Any, TextIO
-from unicodedata import east_asian_width
 
+from eslang.tools.columns import fitted, pad, width
 from eslang.tools.watch_tree import HUES, WatchTree
 
 PAUSE = 0.1  # seconds between two drawings, at least
@@ -169,27 +169,7 @@ class Watch:
         return f"\x1b[{hue}m{text}\x1b[0m" if self.coloured else text
 
 
-def width(text: str) -> int:
-    """The columns that TEXT takes."""
-    return len(text) if text.isascii() else sum(1 + (east_asian_width(char) in "WF") for char in text)
-
-
 def plain(text: str) -> str:
     """TEXT without colours."""
     pieces = text.split("\x1b[")
     return pieces[0] + "".join(piece.partition("m")[2] for piece in pieces[1:])
-
-
-def pad(text: str, columns: int) -> str:
-    """TEXT, and spaces to fill COLUMNS."""
-    return text + " " * (columns - width(text))
-
-
-def fitted(text: str, columns: int) -> str:
-    """TEXT without control characters, cut to COLUMNS."""
-    text = "".join([char if char.isprintable() else "·" for char in text])
-    if width(text) <= columns:
-        return text
-    while text and width(text) >= columns:
-        text = text[:-1]
-    return text + "…"

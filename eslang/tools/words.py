@@ -1,6 +1,7 @@
 """The words that the prompt knows besides forms, such as :why.
 
-Each begins with a colon; some take the name of a task, on the same line.
+Each begins with a colon; some take the name of a task, or a form, that begins
+on the same line.
 """
 
 from __future__ import annotations
@@ -8,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from eslang.base.symbols import Keyword
+from eslang.base.lists import Cons
+from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.tools.report import why
 
 HELP = """\
@@ -17,6 +19,8 @@ Type a form, and it is evaluated; its values are printed, one a line.
   :tasks        the tasks that there are, and how they are
   :task NAME    all that is known of one task
   :abort NAME   abort a task, with its cleanup procedures
+  :facts        the relations of the database; :facts RELATION shows its facts,
+                :facts QUERY what a query finds
   :help         this text
   :quit         end, and abort all tasks; so does Ctrl-D
   (doc NAME)    the signature and documentation of NAME
@@ -74,12 +78,38 @@ def abort_task(conversation: Any, name: str) -> None:
             conversation.interp.scheduler.lives.abort(found, "abort-task")
 
 
-class Word:
-    """One word: what answers it, and whether it takes the name of a task."""
+def tell_facts(conversation: Any, asked: Value) -> None:
+    """The relations that there are, one of them, or what a query finds."""
+    from eslang.tools.columns import columns_of_terminal
+    from eslang.tools.fact_tables import FactTables
 
-    def __init__(self, answer: Callable[[Any, str], None], *, takes_name: bool = False) -> None:
+    interp, write = conversation.interp, conversation.output.write
+    tables = FactTables(interp.database, columns_of_terminal())
+    if asked is None:
+        write(tables.overview())
+    elif isinstance(asked, Symbol):
+        write(tables.relation(asked))
+    elif asked.__class__ is Cons:
+        conversation.attempt(lambda: within(interp, lambda: tables.answers(asked)), write)
+    else:
+        write("Say `:facts`, `:facts RELATION` or `:facts (RELATION ?X ...)`.\n")
+
+
+def within(interp: Any, work: Callable[[], Any]) -> Any:
+    """What WORK gives, which may call Lisp."""
+    with interp.door():
+        return interp.runs.run(work)
+
+
+class Word:
+    """One word: what answers it, and whether it takes the name of a task, or any form."""
+
+    def __init__(
+        self, answer: Callable[[Any, Any], None], *, takes_name: bool = False, takes_form: bool = False
+    ) -> None:
         self.answer = answer
         self.takes_name = takes_name
+        self.takes_form = takes_form
 
 
 WORDS = {
@@ -87,6 +117,7 @@ WORDS = {
     Keyword("TASKS"): Word(tell_tasks),
     Keyword("TASK"): Word(tell_task, takes_name=True),
     Keyword("ABORT"): Word(abort_task, takes_name=True),
+    Keyword("FACTS"): Word(tell_facts, takes_form=True),
     Keyword("HELP"): Word(tell_help),
     Keyword("H"): Word(tell_help),
     Keyword("QUIT"): Word(leave),

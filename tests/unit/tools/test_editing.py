@@ -35,6 +35,14 @@ def test_names_are_completed_with_their_signatures(interp: Interpreter) -> None:
     assert completions(interp, "(GRASP").keys() == {"GRASP-CUP"}
 
 
+def test_relations_are_completed_with_a_pattern_behind_facts_and_in_queries() -> None:
+    with Interpreter() as interp:
+        interp.eval("(defrelation zone-of (thing zone)) (assert '(zed 1))")
+        patterns = {"zone-of": "(zone-of ?thing ?zone)"}
+        assert completions(interp, ":facts ") == {**patterns, "zed": "(zed ?1)"}
+        assert completions(interp, ":facts zo") == completions(interp, "(db-query '(zo") == patterns
+
+
 @pytest.mark.parametrize("text", ["", "(", "(list ", '"gras', "; gras"])
 def test_nothing_is_completed_where_no_name_is_typed(interp: Interpreter, text: str) -> None:
     assert completions(interp, text) == {}

@@ -11,8 +11,9 @@ from unit.tools.command import PYTHON, call
 from unit.tools.terminal import Terminal
 from unit.tools.traced import RESCUE, told
 
+from eslang.tools.columns import fitted, width
 from eslang.tools.watch_tree import KEPT, WatchTree
-from eslang.tools.watching import Watch, fitted, width
+from eslang.tools.watching import Watch
 
 PLAN = """
 (defun main ()
