@@ -121,6 +121,10 @@ class Interpreter:
         """True if SYMBOL names a special form."""
         return symbol.package == "COMMON-LISP" and symbol.name in SPECIAL_FORMS
 
+    def is_relation(self, symbol: Symbol) -> bool:
+        """True if SYMBOL names a relation of the logical database."""
+        return self._database is not None and self._database.is_relation(symbol)
+
     # --- running ---------------------------------------------------------------
 
     @property

@@ -52,6 +52,8 @@ LISP = [
 ROOMS = [
     *(f"eslang.lisp.{name}" for name in LISP),
     "eslang.constructs.esl.contingency",
+    "eslang.constructs.esl.queries",
+    "eslang.constructs.esl.database",
     "eslang.constructs.esl.conditions",
     "eslang.constructs.esl.events",
     "eslang.constructs.esl.checkpoints",

@@ -52,6 +52,10 @@ class Abort(Unwind):
     """Return from the form that the recovery procedure belongs to."""
 
 
+class NextBindings(Unwind):
+    """Back to the start of the body of a WITH-QUERY-BINDINGS form; the value is the next solution."""
+
+
 class RetryNow(Retry):
     """What a recovery procedure returns whose last form is (retry): the jump, made in answer to a failure."""
 

@@ -78,6 +78,7 @@ class Wait:
         "offers",
         "outside",
         "plain",
+        "polls",
         "result",
         "several",
         "task",
@@ -101,7 +102,8 @@ class Wait:
         self.result: Any = None
         self.several = len(events) > 1
         self.plain = not self.several and test is None  # any signal of its event ends it, and that is all
-        self.outside = False  # its condition reads what may change by itself
+        self.polls = True  # its condition may change at any step
+        self.outside = False  # and reads what may change by itself
         if test is not None:
             self.offers: list[Arguments] = []
         for event in events:

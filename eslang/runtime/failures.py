@@ -32,6 +32,7 @@ from eslang.base.hints import Any, Callable, Iterator, NamedTuple, NoReturn
 from eslang.base.running import running
 from eslang.base.stack import STACK
 from eslang.base.symbols import Value
+from eslang.runtime.logical import NOTHING_BOUND, Logical
 from eslang.runtime.story import Asked, Story, as_place, capture_stack, has_come_far
 from eslang.runtime.telling import (
     tell_cleanup,
@@ -68,7 +69,7 @@ class Form:
 
     __slots__ = ("clauses", "live", "logical", "outer", "procedures", "used")
     outer: Form | None
-    logical: dict[Value, Value]  # what logic variables are bound to where it stands
+    logical: Logical  # what logic variables are bound to where it stands
     clauses: tuple[Clause, ...]
     procedures: tuple[Callable[..., Value], ...]
     used: list[int]
@@ -93,7 +94,7 @@ class Dynamic:
         self.answering: list[tuple[Failure, Form]] = []  # who answers what, innermost last
         self.catches: list[tuple[Value, Any]] = []  # (tag, token), innermost last
         self.jumps = Jumps()
-        self.logical: dict[Value, Value] = {}  # what logic variables are bound to
+        self.logical = NOTHING_BOUND
         self.held = 0  # cleanups that are under way: interrupts from outside them wait
         self.masked = 0  # WITHOUT-INTERRUPTS forms that are under way
         self.quiet = False  # a macro is being expanded: nobody is told of its failures

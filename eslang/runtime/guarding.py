@@ -10,10 +10,25 @@ from eslang.base.hints import TYPE_CHECKING, Callable
 from eslang.base.stack import require_room
 from eslang.base.symbols import Value
 from eslang.runtime import failures
+from eslang.runtime.failures import Dynamic
 from eslang.runtime.tasks import ABORTED, Extent, Interrupt, Task
 
 if TYPE_CHECKING:
     from eslang.runtime.scheduler import Scheduler
+
+
+def _under_these_bindings(dynamic: Dynamic, action: Callable[[], Value]) -> Callable[[], Value]:
+    """What does ACTION with logic variables bound as they are here, as a recovery procedure would."""
+    here = dynamic.logical
+
+    def act() -> Value:
+        there, dynamic.logical = dynamic.logical, here
+        try:
+            return action()
+        finally:
+            dynamic.logical = there
+
+    return act
 
 
 def run_guarded(
@@ -22,6 +37,7 @@ def run_guarded(
     """Run BODY; if GUARD ends before, the task does ACTION where it stands. GUARD has ended afterwards."""
     task = scheduler.at_work()
     extent = Extent(task.dynamic)
+    action = _under_these_bindings(task.dynamic, action)
 
     def alarm(ended: Task) -> None:
         if ended.status is not ABORTED and extent.live:
@@ -44,6 +60,7 @@ def run_until(
     """Run BODY; if SECONDS have passed before, the task does ACTION where it stands."""
     task = scheduler.at_work()
     extent = Extent(task.dynamic)
+    action = _under_these_bindings(task.dynamic, action)
     timer = scheduler.set_timer(
         seconds, lambda: scheduler.interrupt(task, Interrupt("deadline", action, extent))
     )

@@ -100,6 +100,20 @@ TABLE = (
         ),
     ),
     Kind(
+        "watch",
+        "the condition that a task waits for does not hold: what will have it looked at again",
+        HERE,
+        (
+            Part("of", "value", "the condition"),
+            Part(
+                "relations",
+                "list",
+                "the relations of the facts that it rests on, whose change wakes it",
+            ),
+            Part("polls", "bool", "it asks Lisp, too, and is looked at after each step"),
+        ),
+    ),
+    Kind(
         "signal",
         "the task signals an event",
         HERE,

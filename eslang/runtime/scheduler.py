@@ -339,7 +339,8 @@ class Scheduler:
             wait.end(True)
         elif not wait.done:
             wait.outside = self.session.touched != touched
-            self.watch(wait, again)
+            if wait.polls:
+                self.watch(wait, again)
         return wait.done
 
     def sleep(self, seconds: float, kind: str = "sleep") -> None:

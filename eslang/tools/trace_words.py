@@ -107,6 +107,12 @@ def _wait(told: dict[str, Any]) -> str:
     return f"sleeps {seconds(told['of'])}" if told["on"] == "sleep" else f"waits for {waited_for(told)}"
 
 
+def _watch(told: dict[str, Any]) -> str:
+    change = f"a change of facts of {value_text(told['relations'])}"
+    when = "each step of another" if told["polls"] else change
+    return f"looks at {value_text(told['of'])} again after {when}"
+
+
 def _resume(told: dict[str, Any]) -> str:
     words = {"came": "goes on", "timeout": "goes on: the time is over", "left": "leaves its wait"}
     return words.get(told["how"], f"goes on: {told['how']}")
@@ -169,6 +175,7 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "task-ended": _ended,
     "abort": _abort,
     "wait": _wait,
+    "watch": _watch,
     "resume": _resume,
     "signal": _signal,
     "checkpoint": lambda told: f"passes checkpoint {value_text(told['id'])}" + _woken(told),

@@ -2,95 +2,181 @@
 
 In this order: AND, OR, NOT of conditions; a query, if the operator names a
 relation; a call, if it names a function; else a query (language reference
-§3). Relations come with the database; until then a query is refused.
+§3). Parts of an AND that speak of logic variables are one query: a call
+among them is a test, in which the variables have their values. A condition
+under a quote or a backquote is the one that is written there.
 """
 
 from __future__ import annotations
 
-from eslang.base.failure import undefined_function
 from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.compile.registry import CL, ESL, function
+from eslang.constructs.esl.queries import LOGICAL_BINDING, mentions_binding
+from eslang.facts.unify import is_variable
 
-AND, OR, NOT, IF, QUOTE, LIST = (Symbol.intern(n, CL) for n in ("AND", "OR", "NOT", "IF", "QUOTE", "LIST"))
-CALLS, QUERY = (Symbol.intern(name, ESL) for name in ("%CALLS-P", "%HOLDS-P"))
-LOGICAL_BINDING = Symbol.intern("LOGICAL-BINDING", ESL)
+AND, OR, NOT, IF, QUOTE, LIST, PROGN, LAMBDA, FUNCALL, QUASIQUOTE = (
+    Symbol.intern(name, CL)
+    for name in ("AND", "OR", "NOT", "IF", "QUOTE", "LIST", "PROGN", "LAMBDA", "FUNCALL", "QUASIQUOTE")
+)
+CALLS, HOLDS, ASKS_LISP = (Symbol.intern(name, ESL) for name in ("%CALLS-P", "%HOLDS-P", "%ASKS-LISP"))
+CONNECTIVES = (AND, OR, NOT)
 
 
 def test_form(condition: Value, environment: Any) -> Value:
     """A form that tells whether CONDITION holds."""
-    if condition.__class__ is not Cons or not isinstance(condition.car, Symbol):
-        return condition
-    if condition.car in (AND, OR, NOT):
-        return Cons(
-            condition.car, from_items([test_form(part, environment) for part in items(condition.cdr)])
-        )
-    if is_operator(condition.car, environment):
-        return condition
-    return lisp_list(
-        IF,
-        lisp_list(CALLS, lisp_list(QUOTE, condition.car)),
-        condition,
-        lisp_list(QUERY, term_form(condition)),
-    )
+    if not is_compound(condition):
+        return lisp_list(PROGN, lisp_list(ASKS_LISP), condition)
+    if is_written(condition):
+        return lisp_list(HOLDS, condition)
+    operator, parts = condition.car, items(condition.cdr) if condition.car in CONNECTIVES else []
+    if operator is AND:
+        joined = [part for part in parts if has_variables(part)]
+        tests = [test_form(part, environment) for part in parts if not has_variables(part)]
+        if len(joined) == 1:
+            tests.append(test_form(joined[0], environment))
+        elif joined:
+            tests.append(lisp_list(HOLDS, query_form(Cons(AND, from_items(joined)), environment)))
+        return Cons(AND, from_items(tests))
+    if operator in CONNECTIVES:
+        return Cons(operator, from_items([test_form(part, environment) for part in parts]))
+    if has_variables(condition):
+        return lisp_list(HOLDS, query_form(condition, environment))
+    call = lisp_list(PROGN, lisp_list(ASKS_LISP), condition)
+    if is_operator(operator, environment):
+        return call
+    return lisp_list(IF, calls_form(operator), call, lisp_list(HOLDS, term_form(condition)))
+
+
+def query_form(condition: Value, environment: Any) -> Value:
+    """A form that gives CONDITION as a query: calls are tests that know the variables around them."""
+    if not is_compound(condition) or is_written(condition):
+        return test_query_form(condition)
+    operator = condition.car
+    if operator in CONNECTIVES:
+        parts = [query_form(part, environment) for part in items(condition.cdr)]
+        if all(part.__class__ is Cons and part.car is QUOTE for part in parts):
+            return lisp_list(QUOTE, condition)
+        return Cons(LIST, Cons(lisp_list(QUOTE, operator), from_items(parts)))
+    if is_operator(operator, environment):
+        return test_query_form(condition)
+    if all(map(is_constant, items(condition.cdr))):
+        return lisp_list(QUOTE, condition)
+    return lisp_list(IF, calls_form(operator), test_query_form(condition), term_form(condition))
+
+
+def test_query_form(form: Value) -> Value:
+    """A form that gives a query for the value of FORM, under the bindings of the variables in it."""
+    variables = list(variables_of(form))
+    closure = lisp_list(LAMBDA, from_items(variables), form)
+    quoted = [lisp_list(QUOTE, variable) for variable in variables]
+    return lisp_list(LIST, lisp_list(QUOTE, FUNCALL), closure, *quoted)
 
 
 def instance_form(condition: Value, environment: Any) -> Value:
     """A form that gives CONDITION as data: with its arguments computed where it is a call."""
-    if condition.__class__ is not Cons or not isinstance(condition.car, Symbol):
+    if not is_compound(condition):
         return lisp_list(QUOTE, condition)
+    if is_written(condition):
+        return condition
     operator = lisp_list(QUOTE, condition.car)
-    if condition.car in (AND, OR, NOT):
+    if condition.car in CONNECTIVES:
         parts = [instance_form(part, environment) for part in items(condition.cdr)]
         return Cons(LIST, Cons(operator, from_items(parts)))
-    if is_operator(condition.car, environment):
+    if is_operator(condition.car, environment) or has_variables(condition):
         return term_form(condition)
     computed = Cons(LIST, Cons(operator, condition.cdr))
-    return lisp_list(IF, lisp_list(CALLS, operator), computed, term_form(condition))
+    return lisp_list(IF, calls_form(condition.car), computed, term_form(condition))
+
+
+def is_compound(condition: Value) -> bool:
+    """Whether CONDITION has an operator."""
+    return condition.__class__ is Cons and isinstance(condition.car, Symbol)
+
+
+def is_written(condition: Cons) -> bool:
+    """Whether CONDITION is a form for a condition: one under a quote or a backquote."""
+    return condition.car is QUOTE or condition.car is QUASIQUOTE
 
 
 def is_operator(symbol: Symbol, environment: Any) -> bool:
-    """True if SYMBOL names a macro, a special form or a local function here."""
+    """True if SYMBOL names a macro, a special form or a local function here, and no relation."""
     session = running.session
     if environment is not None and environment.find_function(symbol) is not None:
         return True
-    return session.image.cell(symbol).macro is not None or symbol in session.image.special_forms
+    if session.image.cell(symbol).macro is None and symbol not in session.image.special_forms:
+        return False
+    return not session.is_relation(symbol)
+
+
+def is_constant(term: Value) -> bool:
+    """Whether TERM means the same in a query and in a call."""
+    return (term.__class__ is not Cons and term.__class__ is not Symbol) or is_variable(term)
+
+
+def calls_form(operator: Symbol) -> Value:
+    """A form that tells whether a condition with OPERATOR is a call."""
+    return lisp_list(CALLS, lisp_list(QUOTE, operator))
 
 
 def term_form(term: Value) -> Value:
     """A form that gives TERM as data, with the values of its #?variables."""
     if term.__class__ is not Cons:
         return lisp_list(QUOTE, term)
-    if term.car is LOGICAL_BINDING:
+    if term.car is LOGICAL_BINDING or is_written(term):
         return term
-    if not _has_bindings(term):
+    if not mentions_binding(term):
         return lisp_list(QUOTE, term)
     return Cons(LIST, from_items([term_form(part) for part in items(term)]))
 
 
-def _has_bindings(term: Value) -> bool:
+def has_variables(term: Value) -> bool:
+    """Whether TERM speaks of logic variables."""
+    return bool(variables_of(term))
+
+
+def variables_of(term: Value) -> dict[Symbol, None]:
+    """The logic variables in TERM, each once; those of #?x are no such."""
+    found: dict[Symbol, None] = {}
     pending = [term]
     while pending:
         part = pending.pop()
         if part.__class__ is Cons:
-            if part.car is LOGICAL_BINDING:
-                return True
-            pending += [part.car, part.cdr]
-    return False
+            if part.car is not LOGICAL_BINDING and not is_written(part):
+                pending += [part.cdr, part.car]
+        elif is_variable(part):
+            found[part] = None
+    return found
+
+
+# --- what the forms call -------------------------------------------------------------
 
 
 @function("(%calls-p operator)", ESL)
 def calls_p(operator: Symbol) -> Value:
     """Tell whether a condition with OPERATOR is a call."""
-    return truth(hasattr(running.session.image.cell(operator), "function"))
+    session = running.session
+    return truth(hasattr(session.image.cell(operator), "function") and not session.is_relation(operator))
+
+
+@function("(%asks-lisp)", ESL)
+def asks_lisp() -> Value:
+    """Note that the condition asks Lisp, whose answer may change at any step."""
+    inquiry = running.session.dynamic.logical.inquiry
+    if inquiry is not None:
+        inquiry.asked_lisp = True
+    return None
 
 
 @function("(%holds-p query)", ESL)
-def holds_p(query: Cons) -> Value:
-    """Tell whether QUERY holds in the database.
-
-    Fails: :undefined-function, as long as there is no database.
-    """
-    raise undefined_function(query.car)
+def holds_p(query: Value) -> Value:
+    """Tell whether QUERY holds in the database; whoever watches hears what that rests on."""
+    session = running.session
+    inquiry = session.dynamic.logical.inquiry
+    if inquiry is None:
+        return truth(session.database.first(query) is not None)
+    solution, reads = session.database.ask(query)
+    inquiry.note(solution, reads)
+    return truth(solution is not None)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from eslang.base.failure import Failure, unbound_variable
+from eslang.base.failure import Failure
 from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.running import running
@@ -15,9 +15,7 @@ from eslang.runtime.story import place_here
 NO_APPLICABLE_METHOD = Keyword("NO-APPLICABLE-METHOD")
 CONDITION_NOT_ACHIEVED = Keyword("CONDITION-NOT-ACHIEVED")
 LAMBDA, QUOTE, COND = (Symbol.intern(name, CL) for name in ("LAMBDA", "QUOTE", "COND"))
-DEFINE_GOAL, ACHIEVE, BINDING = (
-    Symbol.intern(n, ESL) for n in ("%DEFINE-GOAL", "%ACHIEVE", "%LOGICAL-BINDING")
-)
+DEFINE_GOAL, ACHIEVE = (Symbol.intern(name, ESL) for name in ("%DEFINE-GOAL", "%ACHIEVE"))
 
 
 @macro("(to-achieve condition &rest methods)", ESL)
@@ -135,7 +133,7 @@ def _methods(condition: Value, instance: Value) -> tuple[dict[Symbol, Value], Va
 def _ran(bindings: dict[Symbol, Value], methods: Any) -> bool:
     """Run METHODS under BINDINGS; true if one of them applied."""
     dynamic = running.session.dynamic
-    saved, dynamic.logical = dynamic.logical, {**dynamic.logical, **bindings}
+    saved, dynamic.logical = dynamic.logical, dynamic.logical.within(bindings)
     try:
         return methods() is not None
     except Exception as error:
@@ -143,25 +141,3 @@ def _ran(bindings: dict[Symbol, Value], methods: Any) -> bool:
         return False
     finally:
         dynamic.logical = saved
-
-
-@macro("(logical-binding variable)", ESL)
-def logical_binding(form: Cons, environment: Any) -> Value:
-    """Give what the logic variable VARIABLE is bound to.
-
-    #?X is read as (logical-binding ?X).
-
-    Fails:   :unbound-variable if it is bound to nothing here.
-
-    Source: ESL §5.
-    """
-    return lisp_list(BINDING, lisp_list(QUOTE, form.cdr.car))
-
-
-@function("(%logical-binding variable)", ESL)
-def logical_binding_function(variable: Symbol) -> Value:
-    """Give what VARIABLE is bound to."""
-    bindings = running.session.dynamic.logical
-    if variable not in bindings:
-        raise unbound_variable(variable)
-    return bindings[variable]

@@ -18,13 +18,15 @@ from eslang.compile.registry import CL, ESL, function, macro
 from eslang.constructs.esl.clauses import refuse
 from eslang.constructs.esl.conditions import test_form
 from eslang.constructs.esl.tasks import LAMBDA, QUOTE, closure
+from eslang.constructs.esl.watching import Look
 from eslang.runtime import failures
-from eslang.runtime.events import Wait
 from eslang.runtime.guarding import run_until
 from eslang.runtime.periods import Periods
-from eslang.runtime.scheduler import CONDITION
 
-DEADLINE, WAIT = (Symbol.intern(name, ESL) for name in ("%CALL-WITH-DEADLINE", "%WAIT-UNTIL"))
+DEADLINE, WAIT, WAIT_UNTIL, WHEN = (
+    Symbol.intern(name, ESL) for name in ("%CALL-WITH-DEADLINE", "%WAIT-UNTIL", "WAIT-UNTIL", "%WHEN")
+)
+LOOP, NOT = (Symbol.intern(name, CL) for name in ("LOOP", "NOT"))
 DEADLINE_EXPIRED, TIMEOUT = Keyword("DEADLINE-EXPIRED"), Keyword("TIMEOUT")
 LONGEST = 1e9  # seconds
 
@@ -109,9 +111,10 @@ def run_to_deadline(seconds: Value, place: Value, body: Any) -> Value:
 def wait_until(form: Cons, environment: Any) -> Value:
     """Wait until CONDITION holds; not at all if it does.
 
-    A condition that reads Lisp variables is looked at again whenever another
-    task has made a step; one that calls a primitive, on the real clock, also
-    as time passes.
+    A condition over facts is looked at again when a fact that it rests on has
+    changed, and never else. One that calls Lisp is looked at again whenever
+    another task has made a step; if it calls a primitive, on the real clock,
+    also as time passes.
 
     Returns: T.
     Fails:   :timeout, with the number of seconds, if CONDITION does not hold
@@ -124,8 +127,10 @@ def wait_until(form: Cons, environment: Any) -> Value:
             (wait-until (= cups 2))
             cups)
         2
+        ? (progn (spawn (assert '(at robot dock))) (wait-until (at robot dock)))
+        T
 
-    Source: language reference §4; what wakes it: decision 19.
+    Source: language reference §4 and 5; what wakes it: decision 19.
     """
     condition, options = form.cdr.car, form.cdr.cdr
     test = closure(test_form(condition, environment))
@@ -136,19 +141,51 @@ def wait_until(form: Cons, environment: Any) -> Value:
 def wait_until_function(condition: Value, test: Any, *options: Value) -> Value:
     """Wait until TEST is true."""
     (timeout,) = take_keys(options, ("TIMEOUT",))
-    scheduler = running.session.scheduler
-    wait = Wait(scheduler.at_work(), CONDITION, condition, (), test)
-    timer = None
-    if timeout is not None:
-        seconds = seconds_of(timeout, "wait-until")
-        timer = scheduler.set_timer(seconds, lambda: scheduler.end_wait(wait, False))
-    try:
-        came = scheduler.wait(wait)
-    finally:
-        scheduler.forget(wait)
-        if timer is not None:
-            scheduler.timers.call_off(timer)
+    seconds = None if timeout is None else seconds_of(timeout, "wait-until")
+    came = Look(condition, test).wait(seconds)
     return T if came else failures.signal(Failure(TIMEOUT, timeout), continuable=True)
+
+
+@function("(%when condition test body)", ESL)
+def when_function(condition: Value, test: Any, body: Any) -> Value:
+    """Wait until TEST is true; then call BODY, with the logic variables of CONDITION bound."""
+    look = Look(condition, test)
+    look.wait(None)
+    dynamic = running.session.dynamic
+    outer = dynamic.logical
+    dynamic.logical = outer.within(look.inquiry.bindings)
+    try:
+        return body()
+    finally:
+        dynamic.logical = outer
+
+
+@macro("(whenever condition &body body)", ESL)
+def whenever(form: Cons, environment: Any) -> Value:
+    """Run BODY each time that CONDITION becomes true, and now if it is true.
+
+    In BODY, #?X is what the logic variable ?X of CONDITION was bound to. A
+    change that comes and goes while BODY runs is not seen. RETURN leaves.
+
+    Returns: what RETURN gives.
+    Fails:   as BODY does; :deadlock if nothing runs that could change CONDITION.
+    Waits:   until CONDITION becomes true.
+
+    Example:
+        ? (let ((level 0))
+            (spawn (dotimes (i 4) (sleep 1) (setq level (- 1 level))) :daemon t)
+            (whenever (= level 1) (return (list :full level))))
+        (:FULL 1)
+        ? (progn (spawn (assert '(heard siren)))
+                 (whenever (heard ?sound) (return #?sound)))
+        SIREN
+
+    Source: language reference §4; what wakes it: decision 19.
+    """
+    condition, body = form.cdr.car, form.cdr.cdr
+    test = closure(test_form(condition, environment))
+    when = lisp_list(WHEN, lisp_list(QUOTE, condition), test, from_items([LAMBDA, None], body))
+    return lisp_list(LOOP, when, lisp_list(WAIT_UNTIL, lisp_list(NOT, condition)))
 
 
 # --- periods -------------------------------------------------------------------------

@@ -37,6 +37,7 @@ EVERY_KIND = """
 (handler-case (car 5) (error (e) 1))
 (let ((turns 0))
   (periodically 1 (sleep 2.5) (if (= (incf turns) 2) (return))))
+(task-net (a (wait-until (at robot dock))) (b (yield) (assert '(at robot dock))))
 (fail :over)
 (task-net (a (checkpoint-wait b :never)) (b (checkpoint-wait a :never)))
 (quit 3)
