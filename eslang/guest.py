@@ -140,7 +140,7 @@ class Guest:
         if self.loop is None or self.loop.is_closed():
             return
         if not self._resting:
-            if not self._is_idle() or self.scheduler.timers or self.scheduler.watching:
+            if not self._is_idle() or self.scheduler.timers or self.scheduler.polls.waits:
                 self._next = self.loop.call_soon(self._batch)
         elif self._pause is not None:
             self._next = self.loop.call_later(self._pause, self._batch)

@@ -14,7 +14,7 @@ from eslang.base.border import to_lisp, to_python
 from eslang.base.calls import spread
 from eslang.base.control import Stop
 from eslang.base.decoding import decode, file_bytes
-from eslang.base.diagnostics import Diagnostic, EslError, error_at
+from eslang.base.diagnostics import Diagnostic
 from eslang.base.failure import UNBOUND_VARIABLE, Failure
 from eslang.base.hints import TYPE_CHECKING, Any, Callable, F, Iterable, Iterator, overload
 from eslang.base.image import PACKAGE, Image
@@ -33,7 +33,7 @@ from eslang.doors import AtWork, Door
 from eslang.facts.unify import Patterns
 from eslang.lisp.loading import LOAD_PATHNAME
 from eslang.lisp.streams import OutputStream, standard_output
-from eslang.primitives import make_primitive
+from eslang.primitives import define_primitive, make_primitive
 from eslang.runtime import failures
 from eslang.runtime.bindings import Bindings
 from eslang.runtime.chance import make_chance
@@ -61,7 +61,8 @@ class Interpreter:
 
     seed: of the source of chance. clock: "real", or "virtual", on which time
     jumps. output: a text stream (default: standard output as it is at each
-    writing). shuffle: let chance choose among the tasks that are ready.
+    writing). shuffle: let chance choose among the tasks that are ready;
+    choices: let a function of them do so (its index), or a list of names.
     outside: `call` waits for signals from outside, rather than report a
     deadlock. listeners: callables that get Event objects.
     """
@@ -73,6 +74,7 @@ class Interpreter:
         clock: str = "real",
         output: Any = None,
         shuffle: bool = False,
+        choices: Any = None,
         outside: bool = False,
         listeners: Iterable[Listener] = (),
     ) -> None:
@@ -85,7 +87,7 @@ class Interpreter:
         self.dynamic = Dynamic()  # of the task whose turn it is
         self.causes = Causes()
         self.goals = Patterns()
-        self.runs = Runs(self, shuffled=shuffle, is_open=outside)
+        self.runs = Runs(self, shuffled=shuffle, choices=choices, is_open=outside)
         self.scheduler = self.runs.scheduler
         self.ticks = self.scheduler.ticks
         self.hooks = Hooks(self.clock.now, lambda: self.scheduler.current)
@@ -221,6 +223,15 @@ class Interpreter:
 
         post_call(self, function)
 
+    def after(self, seconds: float, function: Callable[[], object]) -> None:
+        """Call FUNCTION, which is not to wait, when SECONDS have passed on the clock; no run waits for it.
+
+        Not from any thread: call it where the tasks are, in a primitive, say, or between two calls.
+        """
+        from eslang.posts import post_later
+
+        post_later(self, seconds, function)
+
     def symbol(self, text: str) -> Symbol | None:
         """The symbol that TEXT names in the current package, as the reader would read it."""
         package, mark, name = text.upper().rpartition(":")
@@ -272,16 +283,7 @@ class Interpreter:
         """
 
         def register(made: Any) -> Any:
-            definition = make_primitive(made, name, signature, outside, blocking)
-            symbol = self.symbol(definition.name)
-            if symbol is None or symbol.package == "COMMON-LISP":
-                raise error_at(
-                    "redefined-standard-name", f"`{definition.name.lower()}` is Common Lisp's", None
-                )
-            cell = self.image.cell(symbol)
-            definition.package = symbol.package or ""
-            cell.function, cell.definition, cell.macro = definition.implementation, definition, None
-            self.defined(symbol)
+            define_primitive(self, make_primitive(made, name, signature, outside, blocking))
             return made
 
         return register if function is None else register(function)
@@ -308,21 +310,8 @@ class Interpreter:
 
     def check(self, paths: Iterable[str | PathLike[str]]) -> list[Diagnostic]:
         """What can be known of a program, the files in order, without running it."""
-        from eslang.compile.check import Checker
-
         with self.at_work():
-            self.compiler("<check>")
-            checker = Checker(self.image, lambda unit, code: run_apart(unit.load(code)))
-            for path in paths:
-                try:
-                    source = decode(file_bytes(path), str(path))
-                except EslError as error:
-                    checker.found.append(error.diagnostic)
-                    continue
-                package = self.image.cell(PACKAGE).value
-                checker.text(self.readings(source), self.compiler(source.name))
-                self.image.cell(PACKAGE).value = package
-            return checker.finish()
+            return self.texts.check(map(str, paths))
 
     def interrupt(self, reason: str = "interrupted", code: int = 130) -> None:
         """Stop what runs, soon, with its cleanups; safe to call from a signal handler."""

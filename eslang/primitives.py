@@ -11,15 +11,19 @@ from types import CoroutineType
 
 from eslang.base.border import enter, to_lisp, to_python
 from eslang.base.calls import reenter, spread
+from eslang.base.diagnostics import error_at
 from eslang.base.errors import python_failure
 from eslang.base.failure import WRONG_NUMBER_OF_ARGUMENTS, Failure, simple_error
-from eslang.base.hints import Any
+from eslang.base.hints import TYPE_CHECKING, Any
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, Value, lisp_name
 from eslang.base.text import String
-from eslang.compile.registry import ESL, Definition
+from eslang.compile.registry import CL, ESL, Definition
 from eslang.compile.signatures import Arity, arity, read_signature
 from eslang.runtime import failures
+
+if TYPE_CHECKING:
+    from eslang.interpreter import Interpreter
 
 COROUTINE, GENERATOR = 0x80, 0x200  # what Python marks the code of an `async def` with, and if it yields
 
@@ -44,6 +48,17 @@ def make_primitive(
         function, called, arity(signature), _positional(signature), outside, blocking
     )
     return definition
+
+
+def define_primitive(session: Interpreter, definition: Definition) -> None:
+    """Let DEFINITION be that of its name; EslError if that is Common Lisp's."""
+    symbol = session.symbol(definition.name)
+    if symbol is None or symbol.package == CL:
+        raise error_at("redefined-standard-name", f"`{definition.name.lower()}` is Common Lisp's", None)
+    cell = session.image.cell(symbol)
+    definition.package = symbol.package or ""
+    cell.function, cell.definition, cell.macro = definition.implementation, definition, None
+    session.defined(symbol)
 
 
 def _wrapped(

@@ -24,7 +24,7 @@ def whole_agent(text: str, **given: Any) -> Iterator[Interpreter]:
     assert set(threading.enumerate()) == before
     scheduler = agent.scheduler
     assert (scheduler.current, scheduler.driver, agent.runs.root) == (None, None, None)
-    assert (len(scheduler.ready), len(scheduler.timers), scheduler.watching) == (0, 0, [])
+    assert (len(scheduler.ready), len(scheduler.timers), scheduler.polls.waits) == (0, 0, [])
     assert (agent.runs.lives.count, dict(agent.runs.lives.tops), scheduler.outside) == (0, {}, 0)
     assert not agent.outside.operations
     assert scheduler.posted.empty()

@@ -45,7 +45,7 @@ class Course:
         self._count = 0
 
     def __call__(self, ready: Sequence[Task]) -> int:
-        """The index of the one that the list names next; the first, when it is at its end, or does not fit."""
+        """The index of the one that the list names next; the first, at its end, or if it does not fit."""
         if self._count >= len(self.names):
             return 0
         name = self.names[self._count]
@@ -81,7 +81,7 @@ def make_choices(session: Any, shuffled: bool, given: Choose | Iterable[str] | N
 
 
 def read_choices(text: str) -> list[str]:
-    """The list of choices that TEXT holds: a name a line; blank lines and those that begin with ; are none."""
+    """The list of choices that TEXT holds: a name a line; blank lines, and those after a ;, are none."""
     lines = [line.strip() for line in text.split("\n")]
     return [line for line in lines if line and not line.startswith(";")]
 

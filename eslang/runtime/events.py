@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from eslang.base.calls import spread
 from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Sequence
-from eslang.base.symbols import Datum, Value
+from eslang.base.symbols import Datum, Symbol, Value
 
 if TYPE_CHECKING:
     from eslang.runtime.tasks import Task
@@ -79,6 +79,7 @@ class Wait:
         "outside",
         "plain",
         "polls",
+        "reads",
         "result",
         "several",
         "task",
@@ -103,6 +104,7 @@ class Wait:
         self.several = len(events) > 1
         self.plain = not self.several and test is None  # any signal of its event ends it, and that is all
         self.polls = True  # its condition may change at any step
+        self.reads: Iterable[Symbol] = ()  # the relations of the facts that its condition rests on
         self.outside = False  # and reads what may change by itself
         if test is not None:
             self.offers: list[Arguments] = []

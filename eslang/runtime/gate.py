@@ -2,7 +2,9 @@
 
 It also knows at home in which of Python's threads the interpreter is: that in
 which its tasks have their stacks. The numbers of threads are used again; the
-mark that each has here is not, and goes when the thread goes.
+mark that each has here is not, and goes when the thread goes. While the gate
+is open, a visitor may come in for a moment (visits.py); who wants to close it
+meanwhile waits until the visitor has gone.
 """
 
 from __future__ import annotations
@@ -34,10 +36,13 @@ HERE = Here()
 class Gate:
     """Whether an interpreter is at work, and where it is at home."""
 
-    __slots__ = ("_home", "_lock")
+    __slots__ = ("_closed_by", "_entrance", "_home", "_lock", "_visitor")
 
     def __init__(self) -> None:
         self._lock = allocate_lock()
+        self._entrance = allocate_lock()  # whoever is in it closes the gate, or is a visitor
+        self._closed_by: Mark | None = None
+        self._visitor: Mark | None = None
         self.move_here()
 
     def is_closed(self) -> bool:
@@ -45,12 +50,38 @@ class Gate:
         return self._lock.locked()
 
     def close(self) -> bool:
-        """Close it; false if it was closed already."""
-        return self._lock.acquire(False)
+        """Close it, as soon as a visitor of another thread has gone; false if it was closed already."""
+        if self._visitor is HERE.mark:
+            return False
+        with self._entrance:
+            if not self._lock.acquire(False):
+                return False
+            self._closed_by = HERE.mark
+            return True
 
     def open(self) -> None:
         """Open it again."""
+        self._closed_by = None
         self._lock.release()
+
+    def is_ours(self) -> bool:
+        """True if the thread at hand has closed it, or is visiting."""
+        return self._closed_by is HERE.mark or self._visitor is HERE.mark
+
+    def let_in(self, patient: bool = False) -> bool:
+        """Let the thread at hand be a visitor; false if the gate is closed, or, unless PATIENT, somebody is there."""
+        if not self._entrance.acquire(patient):
+            return False
+        if self._lock.locked():
+            self._entrance.release()
+            return False
+        self._visitor = HERE.mark
+        return True
+
+    def let_out(self) -> None:
+        """The visitor goes."""
+        self._visitor = None
+        self._entrance.release()
 
     def move_here(self) -> None:
         """Be at home in the thread at hand."""

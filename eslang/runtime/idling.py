@@ -25,10 +25,9 @@ def idle(scheduler: Scheduler) -> None:
         clock.advance(moment)
         return
     pause = None if moment is None else max(0.0, moment - clock.now())
-    if not clock.is_virtual and any(wait.outside and not wait.done for wait in scheduler.watching):
+    if not clock.is_virtual and any(wait.outside and not wait.done for wait in scheduler.polls.waits):
         scheduler.rest(POLL if pause is None else min(POLL, pause))
-        scheduler.looked = -1
-        scheduler.look_again()
+        scheduler.polls.look_at_once()
     elif scheduler.outside or scheduler.is_open or pause is not None:
         scheduler.rest(pause)
     else:

@@ -244,12 +244,12 @@ class Lives:
 
     def obey(self, task: Task, interrupt: Interrupt) -> None:
         """Do what INTERRUPT asks of TASK, the current one, on top of its stack."""
-        if task.obeying >= OBEYING:
+        if len(task.obeying) >= OBEYING:
             raise RecursionError("too many interrupts inside one another")
         hooks, left = self.session.hooks, True
         if hooks.listeners:
             self.tell("interrupt", why=interrupt.kind, by=interrupt.by)
-        task.obeying += 1
+        outer, task.obeying = task.obeying, (*task.obeying, interrupt)
         try:
             failures.guarded(interrupt.action)
             left = False
@@ -257,7 +257,7 @@ class Lives:
             jump.failed = True  # what it leaves is cleaned up
             raise
         finally:
-            task.obeying -= 1
+            task.obeying = outer
             if hooks.listeners:
                 self.tell("interrupt-ended", why=interrupt.kind, left=left)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from eslang.base.control import EndTask, Stop
 from eslang.base.failure import Failure, control_error
-from eslang.base.hints import Any, Callable
+from eslang.base.hints import TYPE_CHECKING, Any, Callable
 from eslang.base.symbols import Keyword, Value
 from eslang.runtime import failures
 from eslang.runtime.gate import Gate, stack_here
@@ -18,13 +18,21 @@ from eslang.runtime.scheduler import Scheduler
 from eslang.runtime.tasks import ABORTED, FAILED, SUCCEEDED, Interrupt, StandStill, Task
 from eslang.runtime.timers import Timers
 
+if TYPE_CHECKING:
+    from eslang.runtime.choices import Choices
+
 
 class Runs:
     """The entrances of one interpreter, and what belongs to its run."""
 
-    def __init__(self, session: Any, *, shuffled: bool, is_open: bool) -> None:
+    def __init__(self, session: Any, *, shuffled: bool, choices: Any = None, is_open: bool) -> None:
         self.session = session
-        self.scheduler = Scheduler(session, shuffled)
+        self.choices: Choices | None = None
+        if shuffled or choices is not None:
+            from eslang.runtime.choices import make_choices
+
+            self.choices = make_choices(session, shuffled, choices)
+        self.scheduler = Scheduler(session, self.choices)
         self.scheduler.end_deadlock = self.end_deadlock
         self.scheduler.end_run = self.stop
         self.lives = self.scheduler.lives
@@ -59,7 +67,7 @@ class Runs:
         self.lives.count += 1
         root.is_root = root.seen = True
         scheduler.enter(root)
-        scheduler.looked = -1  # it may change what others wait for
+        scheduler.polls.looked = -1  # it may change what others wait for
         self.lives.tell("task-started", about=root, parent=None, role="main", daemon=False)
         status: Keyword = ABORTED
         try:
@@ -122,7 +130,7 @@ class Runs:
         self.lives.tops.clear()
         self.lives.count = self.scheduler.outside = 0
         self.scheduler.ready.clear()
-        self.scheduler.watching.clear()
+        self.scheduler.polls.waits.clear()
         self.scheduler.timers = Timers()
 
     def check_outside(self) -> None:

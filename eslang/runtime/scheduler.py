@@ -1,8 +1,8 @@
 """The scheduler: whose turn it is.
 
 One task runs at a time, on its own stack, until it waits, its time slice is
-over, or it ends. The ready take turns first in, first out, or as the source
-of chance has it. Whoever waits hands over to the next that is ready; when
+over, or it ends. The ready take turns first in, first out, or as somebody
+chooses. Whoever waits hands over to the next that is ready; when
 there is none, the driver has the word: the stack from which the interpreter
 was entered. It sees to timers and to what comes from outside, and begins new
 tasks, whose stacks would else stand on one another. A task that runs on the
@@ -19,13 +19,14 @@ from _queue import SimpleQueue
 from eslang.base.calls import depth
 from eslang.base.control import Stop
 from eslang.base.failure import control_error
-from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Sequence
 from eslang.base.stack import require_room
 from eslang.runtime import failures
 from eslang.runtime.bindings import Bindings
 from eslang.runtime.events import Arguments, Event, Wait
 from eslang.runtime.idling import idle, rest
 from eslang.runtime.lives import Lives
+from eslang.runtime.polls import CONDITION, Polls
 from eslang.runtime.story import place_here
 from eslang.runtime.tasks import Interrupt, Task
 from eslang.runtime.ticks import Ticks
@@ -35,16 +36,15 @@ if TYPE_CHECKING:
     from greenlet import greenlet as Stack
 
 TURNS = 64  # hand-overs from task to task before the driver looks at clock and posts
-CONDITION = "condition"  # the kind of a wait that looks at its test again whenever something was done
 
 
 class Scheduler:
     """Whose turn it is among the tasks of one interpreter."""
 
-    def __init__(self, session: Any, shuffled: bool = False) -> None:
+    def __init__(self, session: Any, choose: Callable[[Sequence[Task]], int] | None = None) -> None:
         self.session = session
         self.bindings: Bindings = session.bindings
-        self.shuffled = shuffled
+        self.choose = choose  # which of the ready is next; None: the first
         self.current: Task | None = None
         self.ready: deque[Task] = deque()
         self.timers = Timers()
@@ -52,8 +52,7 @@ class Scheduler:
         self.driver: Stack | None = None
         self.granted = 0  # how many turns were given out, those to come among them
         self.turns = 0  # how many may go from task to task before the driver is to look at clock and posts
-        self.watching: list[Wait] = []  # for conditions that may change at any step
-        self.looked = -1  # the step that only looked again at a condition
+        self.polls = Polls(self)
         self.outside = 0  # operations that go on outside, and will end a wait
         self.is_open = False  # anything may come from outside
         self.end_deadlock: Callable[[], None] = lambda: None
@@ -139,8 +138,8 @@ class Scheduler:
         if self.driver is None:
             self._take_the_wheel(task)
         ready, posted, timers = self.ready, self.posted, self.timers
-        if self.watching:
-            self.look_again()
+        if self.polls.waits:
+            self.polls.look_again()
         while done is None or not done():
             if not posted.empty():
                 self.take_posts()
@@ -153,15 +152,15 @@ class Scheduler:
             if not ready:
                 idle(self)
                 continue
-            turns = 0 if self.shuffled or self.watching else TURNS
+            turns = 0 if self.choose is not None or self.polls.waits else TURNS
             self.granted += 1 + turns - self.turns
             self.turns = turns
-            other = ready.popleft() if not self.shuffled else self._pick()
+            other = ready.popleft() if self.choose is None or len(ready) == 1 else self._pick(self.choose)
             if other is task:
                 return
             self.lives.step(other)
-            if self.watching:
-                self.look_again()
+            if self.polls.waits:
+                self.polls.look_again()
 
     def _take_the_wheel(self, task: Task | None) -> None:
         from greenlet import getcurrent
@@ -185,36 +184,16 @@ class Scheduler:
 
         return getcurrent() is task.stack
 
-    def _pick(self) -> Task:
-        """Take any of the ready, as chance has it."""
-        ready = self.ready
-        if len(ready) > 1:
-            index = self.session.chance.randrange(len(ready))
-            if index:
-                ready[0], ready[index] = ready[index], ready[0]
-        task: Task = ready.popleft()
+    def _pick(self, choose: Callable[[Sequence[Task]], int]) -> Task:
+        """Take the one of the ready that CHOOSE says."""
+        index = choose(self.ready)
+        task: Task = self.ready[index]
+        del self.ready[index]
         return task
 
-    def look_again(self) -> None:
-        """Let all that wait for a condition look at it again, unless nothing was done since."""
-        if self.watching and self.looked != self.steps:
-            watching, self.watching = self.watching, []
-            self.wake(watching)
-
-    def watch(self, wait: Wait, again: bool) -> None:
-        """Let WAIT, whose condition does not hold, look at it again after the next step that does something.
-
-        This step did nothing else if it only looked AGAIN.
-        """
-        self.watching.append(wait)
-        self.granted -= self.turns
-        self.turns = 0
-        self.looked = self.granted if again else -1
-
-    def forget(self, wait: Wait) -> None:
-        """Look no more at the condition of WAIT."""
-        if wait in self.watching:
-            self.watching = [other for other in self.watching if other is not wait]
+    def hand_back(self) -> None:
+        """Let the driver have its turn next: it looks at clock, posts and conditions."""
+        self.granted, self.turns = self.granted - self.turns, 0
 
     def safepoint(self) -> None:
         """A time slice is over: let others have their turn, and take what came for the current task."""
@@ -230,9 +209,9 @@ class Scheduler:
             stop = self.stop_run()
             if task.dynamic.masked:
                 task.ending = stop
-        self.granted, self.turns = self.granted - self.turns, 0  # the driver looks at clock and posts
+        self.hand_back()
         if not task.dynamic.masked and (
-            self.ready or self.watching or self.timers or self.between or not self.posted.empty()
+            self.ready or self.polls.waits or self.timers or self.between or not self.posted.empty()
         ):
             self.yield_turn(task)
         else:
@@ -240,8 +219,8 @@ class Scheduler:
 
     def yield_turn(self, task: Task) -> None:
         """Let the others that are ready have their turns before TASK, the current one, goes on."""
-        if self.watching:
-            self.look_again()
+        if self.polls.waits:
+            self.polls.look_again()
         task.queued = True
         self.ready.append(task)
         self.pause(task)
@@ -340,7 +319,7 @@ class Scheduler:
         elif not wait.done:
             wait.outside = self.session.touched != touched
             if wait.polls:
-                self.watch(wait, again)
+                self.polls.add(wait, again)
         return wait.done
 
     def sleep(self, seconds: float, kind: str = "sleep") -> None:
@@ -389,8 +368,7 @@ class Scheduler:
         """Do what was posted."""
         while not self.posted.empty():
             self.posted.get()()
-        self.looked = -1
-        self.look_again()
+        self.polls.look_at_once()
 
     def stop_run(self) -> Stop | None:
         """See to a pending stop: the run is to end with it."""

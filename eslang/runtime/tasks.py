@@ -145,7 +145,7 @@ class Task(Event):
         self.wait: Wait | None = None  # the innermost
         self.spare: Wait | None = None  # one that is over, for an event: the next may use it again
         self.interrupts: list[Interrupt] | tuple[()] = ()
-        self.obeying = 0  # interrupts that are under way
+        self.obeying: tuple[Interrupt, ...] = ()  # those that are under way
         self.ending: EndTask | Stop | None = None  # it was aborted, or the run is to end
         self.daemon = False
         self.is_root = False  # entered from outside: what it spawns belongs to the run

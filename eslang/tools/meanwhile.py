@@ -30,7 +30,7 @@ class Meanwhile:
     def is_quiet(self) -> bool:
         """True if no task has anything to do before a timer is due, or something comes from outside."""
         scheduler = self.interp.scheduler
-        scheduler.look_again()
+        scheduler.polls.look_again()
         return not scheduler.ready and bool(scheduler.posted.empty())
 
     def burst(self, is_over: Callable[[], bool]) -> float | None:

@@ -107,7 +107,7 @@ class World:
         assert self.naps == 0
         assert agent.runs.lives.count == scheduler.outside == len(scheduler.timers) == 0
         assert not (
-            agent.runs.lives.tops or scheduler.ready or scheduler.watching or agent.outside.operations
+            agent.runs.lives.tops or scheduler.ready or scheduler.polls.waits or agent.outside.operations
         )
         assert (scheduler.current, scheduler.driver, agent.runs.root) == (None, None, None)
         assert [thread for thread in threading.enumerate() if thread.name.startswith("eslang")] == []

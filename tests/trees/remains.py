@@ -37,7 +37,7 @@ def of_the_run(interp: Any) -> dict[str, Any]:
         "the current task": scheduler.current,
         "the driver": scheduler.driver,
         "scheduler.ready": list(scheduler.ready),
-        "scheduler.watching": scheduler.watching,
+        "scheduler.polls": scheduler.polls.waits,
         "the number of timers": len(scheduler.timers),
         "the number of posts": scheduler.posted.qsize(),
         "the pending stop": scheduler.ticks.pending,

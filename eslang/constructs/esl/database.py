@@ -47,7 +47,9 @@ def assert_fact(fact: Value) -> Value:
 
 @function("(retract pattern)", ESL)
 def retract(pattern: Value) -> Value:
-    """Give up all facts that match PATTERN. What rules derive is not held, and stays.
+    """Give up all facts that match PATTERN.
+
+    What rules derive is not held, and stays.
 
     Returns: how many facts there were.
 

@@ -117,7 +117,7 @@ def run_with_query_bindings(query: Value, inherit: Value, body: Any) -> Value:
 
 @function("(next-bindings)", ESL)
 def next_bindings() -> Value:
-    """Jump to the start of the body of WITH-QUERY-BINDINGS, under its next bindings.
+    """Jump to the start of WITH-QUERY-BINDINGS' body, with its next bindings.
 
     It is the innermost such form that counts; in a recovery procedure, the
     form that the procedure stands in. The bindings belong to the task that

@@ -12,7 +12,7 @@ from eslang.base.lists import from_items
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value
 from eslang.runtime.events import Wait
-from eslang.runtime.scheduler import CONDITION
+from eslang.runtime.polls import CONDITION
 
 if TYPE_CHECKING:
     from eslang.facts.watching import Reads, Watch
@@ -69,7 +69,7 @@ class Look:
             return bool(scheduler.wait(self.waiting))
         finally:
             self.inquiry.end()
-            scheduler.forget(self.waiting)
+            scheduler.polls.forget(self.waiting)
             if timer is not None:
                 scheduler.timers.call_off(timer)
 
@@ -87,7 +87,7 @@ class Look:
                     break
         finally:
             dynamic.logical = outer
-        self.waiting.polls = self.inquiry.asked_lisp
+        self.waiting.polls, self.waiting.reads = self.inquiry.asked_lisp, self.inquiry.relations
         if value is None and running.session.hooks.listeners:
             self.tell()
         return value
