@@ -54,6 +54,7 @@ ROOMS = [
     "eslang.constructs.esl.contingency",
     "eslang.constructs.esl.queries",
     "eslang.constructs.esl.database",
+    "eslang.constructs.esl.explaining",
     "eslang.constructs.esl.conditions",
     "eslang.constructs.esl.events",
     "eslang.constructs.esl.checkpoints",
@@ -81,6 +82,7 @@ FILES = [
     "tasks",
     "widgets",
     "recovery",
+    "spacecraft",
     "testing",
 ]
 
