@@ -12,16 +12,19 @@ from types import FrameType
 
 from eslang.base.failure import Failure
 from eslang.base.hints import Any, Iterable, NamedTuple
-from eslang.base.lists import lisp_list
+from eslang.base.lists import Cons, lisp_list
 from eslang.base.shown import shown
-from eslang.base.symbols import Keyword, Value
+from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.text import String
 from eslang.runtime.events import Event, Wait
 from eslang.runtime.lives import LEAVING
+from eslang.runtime.logical import NOTHING_BOUND
 from eslang.runtime.story import Place, nearest_place
 from eslang.runtime.tasks import FAILED, SUCCEEDED, Task
 
 DEADLOCK = Keyword("DEADLOCK")
+LOGICAL_BINDING = Symbol.intern("LOGICAL-BINDING", "ESL")
+FEW = 3  # relations that a reason names
 
 
 class Waiting(NamedTuple):
@@ -90,7 +93,7 @@ def waiting(task: Task, alive: list[Task]) -> Waiting:
     wait = task.wait
     assert wait is not None
     reason, advice = why(wait, alive)
-    return Waiting(task.name, phrase(wait), place_of_task(task), reason, wait.kind, advice)
+    return Waiting(task.name, phrase(wait, bindings_of(task)), place_of_task(task), reason, wait.kind, advice)
 
 
 def place_of_task(task: Task) -> Place | None:
@@ -99,8 +102,8 @@ def place_of_task(task: Task) -> Place | None:
     return nearest_place(frame if frame is not None else sys._getframe(1))
 
 
-def phrase(wait: Wait) -> str:
-    """What WAIT is for, in words."""
+def phrase(wait: Wait, bindings: dict[Symbol, Value] = NOTHING_BOUND.bindings) -> str:
+    """What WAIT is for, in words; logic variables have these BINDINGS."""
     of: Any = wait.of
     match wait.kind:
         case "events":
@@ -114,8 +117,22 @@ def phrase(wait: Wait) -> str:
         case "period":
             return "the next period"
         case "condition":
-            return f"the condition {shown(of)}"
+            return f"the condition {shown(with_bindings(of, bindings))}"
     return f"{of}" if of is not None else wait.kind
+
+
+def bindings_of(task: Task) -> dict[Symbol, Value]:
+    """What logic variables are bound to in TASK."""
+    return task.dynamic.logical.bindings
+
+
+def with_bindings(form: Value, bindings: dict[Symbol, Value]) -> Value:
+    """FORM with what #?x is bound to in its place."""
+    if form.__class__ is not Cons:
+        return form
+    if form.car is LOGICAL_BINDING and form.cdr.__class__ is Cons:
+        return bindings.get(form.cdr.car, form)
+    return Cons(with_bindings(form.car, bindings), with_bindings(form.cdr, bindings))
 
 
 def name_of(event: Event) -> str:
@@ -133,8 +150,30 @@ def why(wait: Wait, alive: list[Task]) -> tuple[str, str]:
         case "events":
             return why_no_signal(wait.of, alive)
         case "condition":
-            return "", "let another task make the condition true, or give the wait a `:timeout`"
+            return why_no_change(wait, alive)
     return "", ""
+
+
+def why_no_change(wait: Wait, alive: list[Task]) -> tuple[str, str]:
+    """Why none of the facts changes that the condition of WAIT rests on; and what would help."""
+    advice = "let another task make the condition true, or give the wait a `:timeout`"
+    names = [] if wait.polls else list(wait.reads)
+    if not names:
+        return "", advice
+    shown_names = " or ".join([shown(name) for name in names[:FEW]])
+    for task in alive:
+        if asserts(task, names):
+            return f"{task.name} could assert or retract {shown_names}", f"let {task.name} do that first"
+    for task in ended(alive):
+        if asserts(task, names) and task.status is not SUCCEEDED:
+            how = "has failed" if task.status is FAILED else "was aborted"
+            return f"{task.name}, which asserts or retracts {shown_names}, {how}", advice
+    return f"no task that is left asserts or retracts {shown_names} in its body", advice
+
+
+def asserts(task: Task, names: Iterable[Symbol]) -> bool:
+    """True if the text of TASK's body asserts or retracts facts of one of the relations NAMES."""
+    return any(promises(task, "assert", name) for name in names)
 
 
 def why_no_checkpoint(task: Task, key: Value) -> tuple[str, str]:

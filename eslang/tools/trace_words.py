@@ -108,8 +108,8 @@ def _wait(told: dict[str, Any]) -> str:
 
 
 def _watch(told: dict[str, Any]) -> str:
-    change = f"a change of facts of {value_text(told['relations'])}"
-    when = "each step of another" if told["polls"] else change
+    names = value_text(told["relations"]).strip("()").split() if told["relations"] is not None else []
+    when = "each step of another" if told["polls"] else f"a change of facts of {listed(names)}"
     return f"looks at {value_text(told['of'])} again after {when}"
 
 

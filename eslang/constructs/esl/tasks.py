@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from eslang.base.arguments import take_keys
 from eslang.base.failure import type_error
-from eslang.base.hints import Any
+from eslang.base.hints import Any, Iterator
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.many import many_of
 from eslang.base.running import running, to_function
@@ -15,7 +15,9 @@ from eslang.constructs.esl.checkpoints import as_task
 from eslang.runtime import failures
 from eslang.runtime.tasks import READY, RUNNING, WAITING, Interrupt, Task
 
-LAMBDA, QUOTE = (Symbol.intern(name, CL) for name in ("LAMBDA", "QUOTE"))
+LAMBDA, QUOTE, QUASIQUOTE, LIST = (
+    Symbol.intern(name, CL) for name in ("LAMBDA", "QUOTE", "QUASIQUOTE", "LIST")
+)
 SPAWN, MASK, TASK = (Symbol.intern(name, ESL) for name in ("%SPAWN", "%CALL-WITHOUT-INTERRUPTS", "TASK"))
 PROGN = Symbol.intern("PROGN", CL)
 STRUCTURE = frozenset(  # operators that a task is not called by
@@ -25,26 +27,47 @@ STRUCTURE = frozenset(  # operators that a task is not called by
 SIGNALLING = {
     Symbol.intern(name, ESL): name.split("-")[0].lower() for name in ("CHECKPOINT", "SIGNAL", "SIGNAL-EVENT")
 }
+ASSERTING = frozenset(Symbol.intern(name, ESL) for name in ("ASSERT", "RETRACT", "UPDATE"))
 
 
 def promises_of(forms: Value) -> Value:
-    """What the text of FORMS signals, ((KIND OF)...): for the report of a deadlock."""
+    """What the text of FORMS signals and asserts, ((KIND OF)...): for the report of a deadlock."""
     found: dict[tuple[str, Any], None] = {}
     pending = [forms]
     while pending:
         form = pending.pop()
         while form.__class__ is Cons:
             head, rest = form.car, form.cdr
-            if isinstance(head, Symbol) and head in SIGNALLING and rest.__class__ is Cons:
-                of = rest.car
-                if of.__class__ is Cons and of.car is QUOTE:
-                    of = of.cdr.car
-                if of.__class__ is not Cons:
-                    found[SIGNALLING[head], of] = None
+            if isinstance(head, Symbol) and rest.__class__ is Cons:
+                if head in SIGNALLING:
+                    of = written(rest.car)
+                    if of.__class__ is not Cons:
+                        found[SIGNALLING[head], of] = None
+                elif head in ASSERTING:
+                    found.update({("assert", name): None for name in relations_of(rest)})
             if head.__class__ is Cons:
                 pending.append(head)
             form = rest
     return from_items([lisp_list(Keyword(kind.upper()), of) for kind, of in found])
+
+
+def written(form: Value) -> Value:
+    """What stands under the quote of FORM, if it has one."""
+    quoted = form.__class__ is Cons and form.car in (QUOTE, QUASIQUOTE) and form.cdr.__class__ is Cons
+    return form.cdr.car if quoted else form
+
+
+def relations_of(arguments: Value) -> Iterator[Symbol]:
+    """The relations of the facts that ARGUMENTS write, as far as can be seen."""
+    while arguments.__class__ is Cons:
+        form = arguments.car
+        fact = written(form)
+        name = fact.car if fact.__class__ is Cons else None
+        if fact is form:  # computed; the name may stand there all the same
+            name = written(fact.cdr.car) if name is LIST and fact.cdr.__class__ is Cons else None
+        if isinstance(name, Symbol):
+            yield name
+        arguments = arguments.cdr
 
 
 def closure(*forms: Value) -> Value:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from eslang import Failure, Interpreter
 from trees.running import Run, trace_of
 
 DEADLOCKS = {
@@ -122,3 +123,49 @@ def test_who_has_ended_and_would_have_signalled_is_told(body: str, why: str) -> 
         (with-recovery-procedures (((:deadlock main-one first-one) (abort (third first-one))))
           (task-net :allow-failures (a (sleep 1) (wait-for-events *e1*)) (b {body})))"""
     assert trace_of(text)[-1] == why
+
+
+CONDITIONS = {
+    "nobody asserts the fact": (
+        "(task-net (a (wait-until (power ega-x :on))) (b (sleep 1)))",
+        "the condition (power ega-x :on)",
+        "no task that is left asserts or retracts power in its body",
+    ),
+    "who could assert it waits": (
+        "(task-net (a (wait-until (power ega-x :on))) (b (wait-for-task a) (assert `(power ,1 :on))))",
+        "the condition (power ega-x :on)",
+        "b could assert or retract power",
+    ),
+    "who would have asserted it has failed": (
+        """(task-net :allow-failures (a (wait-until (power ega-x :on)))
+             (b (fail :x) (update '(power ?x :off) (list 'power 'ega-x :on))))""",
+        "the condition (power ega-x :on)",
+        "b, which asserts or retracts power, has failed",
+    ),
+    "bindings have their values": (
+        """(progn (assert '(is-a w1 widget))
+             (with-query-bindings '(is-a ?w widget) (task-net (a (wait-until (power #?w :on))))))""",
+        "the condition (power w1 :on)",
+        "no task that is left asserts or retracts power in its body",
+    ),
+    "what it is derived from counts, too": (
+        """(progn (defrule (ready ?x) (power ?x :on) (not (busy ?x)))
+             (task-net (a (wait-until (ready ?x))) (b (wait-for-task a) (retract '(busy arm)))))""",
+        "the condition (ready ?x)",
+        "b could assert or retract ready or power or busy",
+    ),
+    "of a condition that asks Lisp nothing is known": (
+        "(task-net (a (wait-until (or (power ega-x :on) (> 1 2)))))",
+        "the condition (or (power ega-x :on) (> 1 2))",
+        None,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CONDITIONS)
+def test_of_a_condition_over_facts_it_is_told_who_could_change_them(name: str) -> None:
+    body, what, why = CONDITIONS[name]
+    with Interpreter(clock="virtual") as interp, pytest.raises(Failure) as raised:
+        interp.eval(body)
+    told = [list(argument) for argument in raised.value.arguments]
+    assert [parts for parts in told if parts[0] == "a"] == [["a", what, *([why] if why else [])]]

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from typing import Any
 
 from unit.tools.traced import EVERY_KIND, RESCUE, told
 
 from architecture.sources import MODULES
-from eslang import Failure, Interpreter, Keyword
-from eslang.base.lists import from_items
+from eslang import Failure, Keyword
 from eslang.runtime.events import Event
 from eslang.runtime.hooks import SPOKEN
 from eslang.runtime.kinds import KINDS, TABLE
@@ -29,14 +27,6 @@ CLASSES = {
     "float": (int, float),
     "tuple[Waiting, ...]": tuple,
 }
-
-
-def told_of_a_fact() -> list[Any]:
-    """The events of a fact that comes."""
-    heard: list[Any] = []
-    with Interpreter(listeners=[heard.append]) as interp:
-        interp.database.add(from_items([interp.symbol("ready"), 1]))
-    return heard
 
 
 def tells() -> Iterator[tuple[str, set[str], str]]:
@@ -71,7 +61,7 @@ def test_what_the_papers_print_is_in_the_table() -> None:
 
 def test_the_parts_are_of_the_types_that_the_table_says() -> None:
     wrong = []
-    for event in told(RESCUE) + told(EVERY_KIND) + told_of_a_fact():
+    for event in told(RESCUE) + told(EVERY_KIND):
         for part in KINDS[event.kind].parts:
             value = event.data[part.name]
             kind = part.type.removesuffix(" | None")
@@ -82,7 +72,7 @@ def test_the_parts_are_of_the_types_that_the_table_says() -> None:
 
 
 def test_two_plans_tell_every_kind() -> None:
-    heard = {event.kind for event in told(RESCUE) + told(EVERY_KIND) + told_of_a_fact()}
+    heard = {event.kind for event in told(RESCUE) + told(EVERY_KIND)}
     assert set(KINDS) - heard == set()
 
 
