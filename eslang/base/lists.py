@@ -89,6 +89,23 @@ def check_end(lst: Value) -> None:
             landmark, steps, limit = rest, 0, limit * 2
 
 
+def check_finite(tree: Value) -> None:
+    """A type error if TREE, a list of lists, contains itself."""
+    around: set[int] = set()  # the conses that the one at hand stands in
+    done: set[int] = set()
+    pending: list[tuple[Value, bool]] = [(tree, False)]
+    while pending:
+        part, is_left = pending.pop()
+        if is_left:
+            around.remove(id(part))
+            done.add(id(part))
+        elif id(part) in around:
+            raise type_error(tree, "LIST")
+        elif part.__class__ is Cons and id(part) not in done:
+            around.add(id(part))
+            pending += [(part, True), (part.cdr, False), (part.car, False)]
+
+
 def is_proper(lst: Value) -> bool:
     """True if LST ends in NIL (a circular list does not)."""
     seen = set()

@@ -154,7 +154,12 @@ def _read_term(term: Value, given: Given, tokens: list[Any], constants: Constant
             tokens.append(GIVEN)
             constants.append(code_of(given[term]))
         tokens.append(term)
-    elif term.__class__ is Cons and has_variables(term):
+        return
+    code = code_of(term)
+    if variable_in(code) is None:
+        tokens.append(CONSTANT)
+        constants.append(code)
+    else:
         tokens.append(OPEN)
         while term.__class__ is Cons:
             _read_term(term.car, given, tokens, constants)
@@ -163,25 +168,14 @@ def _read_term(term: Value, given: Given, tokens: list[Any], constants: Constant
             tokens.append(LAST)
             _read_term(term, given, tokens, constants)
         tokens.append(CLOSE)
-    else:
-        tokens.append(CONSTANT)
-        constants.append(code_of(term))
 
 
-def has_variables(term: Value) -> bool:
-    """Whether a logic variable stands in TERM."""
-    pending = [term]
-    while pending:
-        term = pending.pop()
-        while term.__class__ is Cons:
-            if term.car.__class__ is Cons:
-                pending.append(term.car)
-            elif is_variable(term.car):
-                return True
-            term = term.cdr
-        if is_variable(term):
-            return True
-    return False
+def variable_in(code: Code) -> Symbol | None:
+    """The first logic variable in what CODE stands for."""
+    for token in code if code.__class__ is tuple else (code,):
+        if token.__class__ is Symbol and is_variable(token):
+            return token  # type: ignore[no-any-return]
+    return None
 
 
 class Shape(NamedTuple):

@@ -17,11 +17,11 @@ from eslang.facts.goals import (
     Atom,
     Constants,
     Tokens,
-    has_variables,
     quick_tokens,
     read_query,
     shape_of,
     unbound,
+    variable_in,
 )
 from eslang.facts.patterns import Pattern
 from eslang.facts.properties import overruled, unique_positions
@@ -91,11 +91,12 @@ class Store:
             rest = rest.cdr
             kind = term.__class__
             if kind not in DIRECT or (kind is Symbol and "?" <= term.name < "@"):
-                if has_variables(term):
-                    raise unbound(_first_variable(term), fact)
                 term = code_of(term)
                 is_plain = is_plain and kind is Symbol
             row.append(term)
+                variable = variable_in(term)
+                if variable is not None:
+                    raise unbound(variable, fact)
         if rest is not None:
             raise type_error(fact, "LIST")
         relation = self.relations.get((name, len(row)))
@@ -234,13 +235,3 @@ class Store:
         self._telling = False
         if trouble:
             raise trouble[0]
-
-
-def _first_variable(term: Value) -> Symbol:
-    pending = [term]
-    while True:
-        term = pending.pop()
-        if is_variable(term):
-            return term  # type: ignore[no-any-return]
-        if term.__class__ is Cons:
-            pending += [term.cdr, term.car]

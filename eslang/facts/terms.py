@@ -12,7 +12,7 @@ from __future__ import annotations
 from types import FunctionType
 
 from eslang.base.hints import Any
-from eslang.base.lists import Cons, check_end
+from eslang.base.lists import Cons, check_finite
 from eslang.base.symbols import Datum, Keyword, Symbol, Value
 from eslang.base.text import String
 
@@ -20,7 +20,7 @@ Code = Any  # what stands for a value in the store
 Row = tuple[Code, ...]  # the arguments of a fact
 
 DIRECT = frozenset((int, Symbol, Keyword, type(None)))  # classes of values that are their own codes
-LONG = 1_000_000  # tokens; a list so long is asked whether it is circular
+LONG = 100_000  # tokens; a list so long is asked whether it contains itself
 
 
 class _Mark:
@@ -67,21 +67,21 @@ def code_of(value: Value) -> Code:
 
 def _list_code(value: Cons) -> Code:
     tokens: list[Code] = []
+    whole, is_checked = value, False
     pending: list[Value] = [value]
-    limit = LONG
     while pending:
         value = pending.pop()
         while value.__class__ is Cons:
             tokens.append(PAIR)
+            if len(tokens) > LONG and not is_checked:
+                check_finite(whole)
+                is_checked = True
             if value.car.__class__ is Cons:
                 pending.append(value.cdr)
                 value = value.car
                 continue
             tokens.append(code_of(value.car))
             value = value.cdr
-            if len(tokens) > limit:
-                check_end(value)
-                limit *= 2
         tokens.append(code_of(value))
     return tuple(tokens)
 

@@ -7,6 +7,7 @@ is bound to nothing.
 from __future__ import annotations
 
 from eslang.base.lists import Cons
+from eslang.base.sameness import is_eql
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.text import String
 
@@ -23,14 +24,9 @@ def is_variable(term: Value) -> bool:
 
 def same(left: Value, right: Value) -> bool:
     """EQUAL, for atoms."""
-    if left is right:
-        return True
-    if left.__class__ is not right.__class__:
-        return False
-    if left.__class__ is String:
+    if left.__class__ is String and right.__class__ is String:
         return bool(left.text == right.text)
-    kind = left.__class__.__name__
-    return kind in ("int", "float", "Ratio") and bool(left == right)
+    return is_eql(left, right)
 
 
 def match(pattern: Value, term: Value) -> dict[Symbol, Value] | None:
@@ -60,7 +56,7 @@ def is_same_pattern(left: Value, right: Value) -> bool:
     pending = [(left, right)]
     while pending:
         left, right = pending.pop()
-        if is_variable(left) and is_variable(right):
+        if is_variable(left) and is_variable(right) and "?_" not in (left.name, right.name):
             if forth.setdefault(left, right) is not right or back.setdefault(right, left) is not left:
                 return False
         elif left.__class__ is Cons and right.__class__ is Cons:

@@ -6,6 +6,7 @@ import pytest
 
 from asking import LISP, Asking, bound, read, told
 from eslang.base.failure import Failure
+from eslang.base.lists import Cons
 from eslang.base.printer import prin1
 from eslang.base.text import String
 from eslang.facts.goals import UNBOUND
@@ -114,6 +115,18 @@ def test_a_query_without_an_end_is_refused() -> None:
     for ask in (Asking().all, Asking().add, Asking().retract):
         with pytest.raises(Failure):
             ask(query)
+
+
+@pytest.mark.parametrize("part", ["car", "cdr"])
+@pytest.mark.parametrize("text", ["(a)", "(?x)", "((a . b) c)"])
+def test_a_term_that_contains_itself_is_refused(text: str, part: str) -> None:
+    query = Cons(read("p"), Cons(read(text), None))
+    innermost = query.cdr.car.car if query.cdr.car.car.__class__ is Cons else query.cdr.car
+    setattr(innermost, part, query.cdr.car)
+    for ask in (Asking().all, Asking().add, Asking().retract):
+        with pytest.raises(Failure) as caught:
+            ask(query)
+        assert caught.value.arguments[0] is query.cdr.car
 
 
 def test_bindings_that_are_given_constrain_a_query() -> None:

@@ -173,6 +173,11 @@ def test_a_rule_that_is_there_already_changes_nothing() -> None:
     assert facts.answers("(reach a ?x)") == ["B"]
 
 
+def test_a_rule_that_says_more_is_not_there_already() -> None:
+    facts = with_rules(("((twin) (edge ?x ?x))", "((twin) (edge ?_ ?_))"), *ROUND)
+    assert facts.answers("(twin)") == [""]
+
+
 @pytest.mark.parametrize("rule", ["(a (b))", "((and ?x) (b ?x))", "((?r ?x) (b ?x))", "((p ?x) b)"])
 def test_what_is_no_rule_is_refused(rule: str) -> None:
     with pytest.raises(Failure):

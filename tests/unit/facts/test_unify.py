@@ -19,6 +19,8 @@ from eslang.facts.unify import Patterns, is_same_pattern, match
         ("(at ?_ ?_)", "(at 1 2)", ""),
         ("(at . ?rest)", "(at 1 2)", "?REST (1 2)"),
         ('"a"', '"a"', ""),
+        ("0.0", "-0.0", None),
+        ("1/2", "1/2", ""),
         ("?", "a", None),
         (":?x", "a", None),
     ],
@@ -33,6 +35,12 @@ def test_patterns_are_the_same_whatever_their_variables_are_called() -> None:
     assert is_same_pattern(read("(p ?x ?y)"), read("(p ?a ?b)"))
     assert not is_same_pattern(read("(p ?x ?y)"), read("(p ?a ?a)"))
     assert not is_same_pattern(read("(p ?x ?x)"), read("(p ?a ?b)"))
+
+
+def test_a_variable_that_is_bound_to_nothing_is_the_same_as_itself_only() -> None:
+    assert is_same_pattern(read("(p ?_ ?x ?_)"), read("(p ?_ ?y ?_)"))
+    assert not is_same_pattern(read("(p ?_ ?_)"), read("(p ?x ?x)"))
+    assert not is_same_pattern(read("(p ?x ?x)"), read("(p ?_ ?_)"))
 
 
 def test_what_has_no_variables_is_found_before_what_has() -> None:
