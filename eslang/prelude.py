@@ -52,10 +52,10 @@ LISP = [
 ROOMS = [
     *(f"eslang.lisp.{name}" for name in LISP),
     "eslang.constructs.esl.contingency",
-    "eslang.constructs.esl.queries",
+    "eslang.constructs.queries",
     "eslang.constructs.esl.database",
     "eslang.constructs.esl.explaining",
-    "eslang.constructs.esl.conditions",
+    "eslang.constructs.conditions",
     "eslang.constructs.esl.events",
     "eslang.constructs.esl.checkpoints",
     "eslang.constructs.esl.tasks",

@@ -56,6 +56,12 @@ class NextBindings(Unwind):
     """Back to the start of the body of a WITH-QUERY-BINDINGS form; the value is the next solution."""
 
 
+class Deactivated(Unwind):
+    """A construct of SCS is left, since what it rests on does not hold any more. The target is its level."""
+
+    failed = True  # what is inside is cleaned up
+
+
 class RetryNow(Retry):
     """What a recovery procedure returns whose last form is (retry): the jump, made in answer to a failure."""
 

@@ -1,4 +1,4 @@
-"""What logic variables are bound to in a task, and by whom (ESL §5).
+"""What logic variables are bound to in a task, and by whom (ESL §5); which circuit it is in (SCS).
 
 It is dynamic: forms put another in force for what they run, and a recovery
 procedure sees what was in force where its form stands.
@@ -11,15 +11,20 @@ from eslang.base.symbols import Symbol, Value
 
 
 class Logical(NamedTuple):
-    """The bindings in force; the query whose solutions are gone through; who notes what a condition reads."""
+    """The bindings in force, and who else matters here.
+
+    query: whose solutions are gone through; inquiry: what notes the reads of a
+    condition; circuit: the innermost construct that goes on while a condition holds.
+    """
 
     bindings: dict[Symbol, Value]
     query: Any = None
     inquiry: Any = None
+    circuit: Any = None
 
     def within(self, bindings: dict[Symbol, Value], query: Any = None) -> Logical:
         """The same, with more BINDINGS in force, and the innermost QUERY if that is told."""
-        return Logical({**self.bindings, **bindings}, query or self.query, self.inquiry)
+        return Logical({**self.bindings, **bindings}, query or self.query, self.inquiry, self.circuit)
 
 
 NOTHING_BOUND = Logical({})

@@ -14,6 +14,7 @@ from eslang.base.suggest import nearest
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.text import String
 from eslang.compile.registry import CL, ESL
+from eslang.constructs.shapes import refuse
 
 if TYPE_CHECKING:
     from eslang.compile.scope import Scope
@@ -176,23 +177,6 @@ class RecoveryClause:
         """Where the clause stands, as a list."""
         span = self.environment.analyser.spans.of(self.clause) if self.environment is not None else None
         return lisp_list(String(span.source.name), *span[1:]) if span is not None else None
-
-
-def refuse(
-    environment: Scope | None,
-    name: str,
-    message: str,
-    holder: Cons,
-    label: str = "",
-    hint: str | None = None,
-    within: str = "with-recovery-procedures",
-) -> NoReturn:
-    """Raise the diagnostic of a part that is not as it should be, in HOLDER's car, WITHIN a form."""
-    if environment is None:
-        raise control_error(message)
-    spans = environment.analyser.spans
-    span = spans.element(holder) or spans.of(holder.car) or spans.of(holder)
-    environment.analyser.fail(name, message, span, label, hint, f"({within} …)")
 
 
 def warn_of_unreachable(clauses: list[RecoveryClause], environment: Scope | None) -> None:

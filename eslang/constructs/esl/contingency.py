@@ -21,9 +21,9 @@ from eslang.constructs.esl.clauses import (
     THIS_FORM,
     RecoveryClause,
     is_one_clause,
-    refuse,
     warn_of_unreachable,
 )
+from eslang.constructs.shapes import refuse
 from eslang.runtime import failures
 from eslang.runtime.failures import Clause, Form
 

@@ -12,7 +12,7 @@ from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.base.text import String
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.esl.queries import in_force
+from eslang.constructs.queries import in_force
 
 QUOTE = Symbol.intern("QUOTE", CL)
 DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE = (

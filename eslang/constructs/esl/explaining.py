@@ -8,7 +8,7 @@ from eslang.base.printer import prin1
 from eslang.base.running import running
 from eslang.base.symbols import Value
 from eslang.compile.registry import ESL, function
-from eslang.constructs.esl.queries import in_force
+from eslang.constructs.queries import in_force
 
 if TYPE_CHECKING:
     from eslang.facts.explain import Explained, ExplainedRules, Explanation

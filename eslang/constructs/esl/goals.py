@@ -8,7 +8,7 @@ from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.esl.conditions import instance_form, term_form, test_form
+from eslang.constructs.conditions import instance_form, term_form, test_form
 from eslang.runtime import failures
 from eslang.runtime.story import place_here
 

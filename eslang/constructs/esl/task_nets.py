@@ -10,7 +10,7 @@ from eslang.base.running import running
 from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.esl.clauses import refuse
+from eslang.constructs.shapes import refuse
 from eslang.constructs.esl.tasks import LAMBDA, QUOTE, closure, make_task, name_of_form, promises_of
 from eslang.runtime import failures
 from eslang.runtime.lives import passed_on

@@ -16,7 +16,7 @@ from eslang.base.shown import shown
 from eslang.base.stack import STACK
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.esl.clauses import refuse
+from eslang.constructs.shapes import refuse
 from eslang.facts.unify import is_variable
 from eslang.runtime import failures
 

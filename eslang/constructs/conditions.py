@@ -14,7 +14,7 @@ from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.compile.registry import CL, ESL, function
-from eslang.constructs.esl.queries import LOGICAL_BINDING, mentions_binding
+from eslang.constructs.queries import LOGICAL_BINDING, mentions_binding
 from eslang.facts.unify import is_variable
 
 AND, OR, NOT, IF, QUOTE, LIST, PROGN, LAMBDA, FUNCALL, QUASIQUOTE = (

@@ -1,0 +1,171 @@
+"""Asking conditions again and again, and running steps while they hold (SCS Appendix C).
+
+A condition over facts is asked anew only when what it rests on has changed;
+one that asks Lisp, once after each action.
+"""
+
+from __future__ import annotations
+
+from eslang.base.control import Deactivated
+from eslang.base.hints import Any, Callable, Iterable
+from eslang.base.running import running
+from eslang.base.symbols import Keyword, Symbol, Value
+from eslang.constructs.watching import Inquiry
+from eslang.runtime import failures
+from eslang.runtime.circuits import Level
+from eslang.runtime.events import Wait
+from eslang.runtime.polls import CONDITION
+
+DEACTIVATED = Keyword("DEACTIVATED")  # what a step gives that neither succeeded nor failed
+Bindings = dict[Symbol, Value]
+
+
+class Asked:
+    """A condition, and the answer that it had."""
+
+    __slots__ = ("condition", "inquiry", "is_stale", "negated", "owner", "test", "value")
+
+    def __init__(self, condition: Value, test: Callable[[], Value], owner: Asker, negated: bool = False) -> None:
+        self.condition = condition
+        self.test = test
+        self.owner = owner
+        self.negated = negated
+        self.inquiry = Inquiry(self.stir)
+        self.is_stale = True
+        self.value = False
+
+    @property
+    def polls(self) -> bool:
+        """Whether its answer may change with any action."""
+        return self.inquiry.asked_lisp
+
+    @property
+    def bindings(self) -> Bindings:
+        """The variables under which it holds."""
+        return {} if self.negated else self.inquiry.bindings
+
+    def stir(self, change: object) -> None:
+        """What it rests on has changed."""
+        self.inquiry.is_stale = self.is_stale = True
+        self.owner.stir()
+
+    def holds(self) -> bool:
+        """Whether it holds now; it is asked only if that can have changed."""
+        if self.is_stale or self.inquiry.asked_lisp:
+            self._ask()
+        return self.value
+
+    def _ask(self) -> None:
+        dynamic = running.session.dynamic
+        outer = dynamic.logical
+        try:
+            while self.is_stale or self.inquiry.asked_lisp:
+                self.inquiry.end()
+                self.inquiry = Inquiry(self.stir)
+                dynamic.logical = outer._replace(inquiry=self.inquiry)
+                self.is_stale = False
+                self.value = (failures.guarded(self.test) is None) is self.negated
+                if not self.is_stale:
+                    break
+        finally:
+            dynamic.logical = outer
+
+
+class Asker:
+    """One entrance of a construct that has conditions."""
+
+    __slots__ = ("conditions", "level", "task", "wait")
+
+    def __init__(self) -> None:
+        self.conditions: list[Asked] = []
+        self.level: Level | None = None
+        self.wait: Wait | None = None
+        self.task = running.session.scheduler.at_work()
+
+    def ask(self, condition: Value, test: Callable[[], Value], negated: bool = False) -> Asked:
+        """Take a condition, which is not asked yet."""
+        asked = Asked(condition, test, self, negated)
+        self.conditions.append(asked)
+        return asked
+
+    def stir(self) -> None:
+        """What one of the conditions rests on has changed."""
+        if self.level is not None:
+            self.level.stir()
+        if self.wait is not None:
+            running.session.scheduler.wake([self.wait])
+
+    def run(self, on: list[Asked], holds: Callable[[], bool], bindings: Bindings, body: Callable[[], Value]) -> Value:
+        """What BODY gives as long as HOLDS, which asks ON, is true; DEACTIVATED if that ends."""
+        dynamic = running.session.dynamic
+        outer = dynamic.logical
+
+        def still() -> bool:
+            answer = holds()
+            level.polls = any([each.polls for each in on])
+            return answer
+
+        level = self.level = Level(self.task, outer, still)
+        level.polls = any([each.polls for each in on])
+        dynamic.logical = outer.within(bindings)._replace(circuit=level)
+        try:
+            return failures.guarded(body)
+        except Deactivated as jump:
+            if jump.target is not level:
+                raise
+            return DEACTIVATED
+        finally:
+            level.end()
+            self.level = None
+            dynamic.logical = outer
+
+    def idle(self, of: Value, among: Iterable[Asked]) -> None:
+        """Wait until one of the conditions AMONG holds."""
+        listed = list(among)
+
+        def any_holds() -> Value:
+            found = [each for each in listed if each.holds()]
+            wait.polls = any([each.polls for each in listed])
+            return found or None
+
+        wait = self.wait = Wait(self.task, CONDITION, of, (), any_holds)
+        scheduler = running.session.scheduler
+        try:
+            scheduler.wait(wait)
+        finally:
+            scheduler.polls.forget(wait)
+            self.wait = None
+
+    def end(self) -> None:
+        """Watch no more."""
+        for each in self.conditions:
+            each.inquiry.end()
+
+
+def run_under(modifiers: Any, body: Callable[[], Value]) -> Value:
+    """What BODY gives under MODIFIERS, each (kind condition test); DEACTIVATED if one does not hold."""
+    if not modifiers:
+        return body()
+    asker = Asker()
+    dynamic = running.session.dynamic
+    outer = dynamic.logical
+    lasting: list[Asked] = []
+    try:
+        bindings: Bindings = {}
+        for kind, condition, test in modifiers:
+            asked = asker.ask(condition, test, kind in ("UNTIL", "UNLESS"))
+            dynamic.logical = outer.within(bindings)
+            if not asked.holds():
+                return DEACTIVATED
+            bindings.update(asked.bindings)
+            if kind in ("WHILE", "UNTIL"):
+                lasting.append(asked)
+            else:
+                asked.inquiry.end()
+        dynamic.logical = outer.within(bindings)
+        if not lasting:
+            return body()
+        return asker.run(lasting, lambda: all([each.holds() for each in lasting]), bindings, body)
+    finally:
+        dynamic.logical = outer
+        asker.end()

@@ -1,0 +1,111 @@
+"""Circuits: the energizing conditions under which a task acts (SCS Appendix B and C).
+
+Each construct that goes on only while a condition holds is a level. Whenever
+an atomic action has ended, the levels are asked from the outermost in; at the
+first that no longer holds, everything inside is left, with its cleanups, and
+new choices are made there. A level that rests on facts alone is asked only if
+they have changed; then its task is roused, too, should it wait. What a level
+asks is handed in: this file knows no condition.
+"""
+
+from __future__ import annotations
+
+from eslang.base.control import Deactivated
+from eslang.base.hints import TYPE_CHECKING, Any, Callable
+from eslang.base.running import running
+from eslang.runtime.events import Wait
+from eslang.runtime.tasks import Extent, Interrupt, Task
+
+if TYPE_CHECKING:
+    from eslang.runtime.logical import Logical
+
+
+class Level:
+    """One entrance of a construct that is active while something holds."""
+
+    __slots__ = ("chain", "extent", "holds", "is_stale", "live", "logical", "polls", "task")
+
+    def __init__(self, task: Task, logical: Logical, holds: Callable[[], bool]) -> None:
+        outer: Level | None = logical.circuit
+        self.task = task
+        self.logical = logical  # what was in force around it
+        self.holds = holds
+        self.polls = False  # it is asked after every action
+        self.is_stale = False  # what it rests on has changed
+        self.live = True
+        self.extent = Extent(task.dynamic)
+        self.chain: tuple[Level, ...] = (*outer.chain, self) if outer is not None else (self,)
+
+    def stir(self, change: object = None) -> None:
+        """What it rests on has changed: it is to be asked, at once if its task waits."""
+        if self.is_stale or not self.live:
+            return
+        self.is_stale = True
+        scheduler = running.session.scheduler
+        if scheduler.current is not self.task:
+            scheduler.interrupt(self.task, Interrupt("circuit", self.ask_again, self.extent))
+
+    def ask_again(self) -> None:
+        """Leave it, if it does not hold any more. Raises Deactivated."""
+        if self.live and self.is_stale and not self.ask():
+            raise Deactivated(self)
+
+    def ask(self) -> bool:
+        """Whether it still holds."""
+        self.is_stale = False
+        dynamic = running.session.dynamic
+        here, dynamic.logical = dynamic.logical, self.logical
+        try:
+            return self.holds()
+        finally:
+            dynamic.logical = here
+
+    def end(self) -> None:
+        """It is left."""
+        self.live = self.extent.live = False
+
+
+def end_of_action() -> None:
+    """An atomic action has ended: ask the levels, and let another branch have its turn."""
+    session = running.session
+    dynamic = session.dynamic
+    level: Level | None = dynamic.logical.circuit
+    if level is None or dynamic.masked:
+        return
+    for each in level.chain:
+        if (each.is_stale or each.polls) and not each.ask():
+            leave(session, each)
+
+
+def leave(session: Any, level: Level) -> None:
+    """Leave everything inside LEVEL; if that belongs to another task, wait for what it makes of this one."""
+    task = session.scheduler.at_work()
+    if level.task is task:
+        raise Deactivated(level)
+    level.is_stale = True
+
+    def deactivate() -> None:
+        raise Deactivated(level)
+
+    session.scheduler.interrupt(level.task, Interrupt("circuit", deactivate, level.extent))
+    session.scheduler.wait(Wait(task, "deactivated", level.task))
+
+
+def take_turns(session: Any) -> None:
+    """Let any of the branches that are ready go on, as chance has it, the current one among them.
+
+    Other tasks keep their places in the queue.
+    """
+    scheduler = session.scheduler
+    task, ready = scheduler.at_work(), scheduler.ready
+    places = [index for index, other in enumerate(ready) if other.dynamic.logical.circuit is not None]
+    if not places:
+        return
+    places.append(len(ready))
+    ready.append(task)
+    task.queued = True
+    chosen, first = places[session.chance.randrange(len(places))], places[0]
+    ready[first], ready[chosen] = ready[chosen], ready[first]
+    scheduler.pause(task)
+    if task.interrupts or task.ending is not None:
+        scheduler.attend(task)
