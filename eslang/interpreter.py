@@ -64,7 +64,8 @@ class Interpreter:
     writing). shuffle: let chance choose among the tasks that are ready;
     choices: let a function of them do so (its index), or a list of names.
     outside: `call` waits for signals from outside, rather than report a
-    deadlock. listeners: callables that get Event objects.
+    deadlock. listeners: callables that get Event objects. facts: a file that
+    keeps the facts of the database; those in it are there from the start.
     """
 
     def __init__(
@@ -77,6 +78,7 @@ class Interpreter:
         choices: Any = None,
         outside: bool = False,
         listeners: Iterable[Listener] = (),
+        facts: str | PathLike[str] | None = None,
     ) -> None:
         self.image = Image()
         self.seed = seed
@@ -103,6 +105,10 @@ class Interpreter:
             library.furnish(self)
         self._library = False
         self.image.sealed = True
+        if facts is not None:
+            from eslang.durable import keep_facts
+
+            keep_facts(self, str(facts))
         self.hooks.listeners.extend(listeners)
 
     # --- what is there from the start ------------------------------------------
@@ -370,6 +376,8 @@ class Interpreter:
             if self._outside is not None:
                 self._outside.close()
             self.runs.let_go()
+            if self._database is not None and self._database.journal is not None:
+                self._database.journal.close()
 
     async def close_async(self) -> None:
         """The same within the running asyncio loop, which goes on meanwhile."""

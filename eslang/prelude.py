@@ -54,6 +54,7 @@ ROOMS = [
     "eslang.constructs.esl.contingency",
     "eslang.constructs.queries",
     "eslang.constructs.esl.database",
+    "eslang.constructs.esl.saving",
     "eslang.constructs.esl.explaining",
     "eslang.constructs.conditions",
     "eslang.constructs.esl.events",

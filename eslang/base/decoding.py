@@ -6,11 +6,13 @@ compiled code is kept can be opened without loading it.
 
 from __future__ import annotations
 
+import os
 from codecs import BOM_UTF8
 
 from eslang.base.diagnostics import EslError, error_at
 from eslang.base.hints import TYPE_CHECKING
 from eslang.base.spans import Source, Span
+from eslang.base.symbols import Value
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -20,6 +22,12 @@ def file_bytes(path: str | PathLike[str]) -> bytes:
     """What the file at PATH holds. Raises OSError."""
     with open(path, "rb") as file:
         return file.read()
+
+
+def find_file(name: str, loading: Value) -> str | None:
+    """Where the file NAME is: beside the file LOADING, a string, if any, or from the current folder."""
+    beside = os.path.join(os.path.dirname(loading.text), name) if loading is not None else name
+    return next((path for path in (beside, name) if os.path.isfile(path)), None)
 
 
 def decode(text: bytes, name: str) -> Source:

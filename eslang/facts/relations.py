@@ -39,7 +39,7 @@ class Relation:
     def __init__(self, name: Symbol, arity: int) -> None:
         self.name = name
         self.arity = arity
-        self.rows: dict[Row, None] = {}
+        self.rows: dict[Row, Any] = {}  # in their order; the values are a journal's
         self.is_plain = True  # every code in the rows is a value
         self.indexes: list[Index] = []
         self.unique: Positions | None = None  # of a property: the positions that determine the last one

@@ -23,6 +23,7 @@ from eslang.facts.goals import (
     unbound,
     variable_in,
 )
+from eslang.facts.journal import Journal
 from eslang.facts.patterns import Pattern
 from eslang.facts.properties import overruled, unique_positions
 from eslang.facts.relations import Relation
@@ -45,6 +46,7 @@ class Store:
         self.subscribers: list[Subscriber] = []
         self.audience: Sequence[object] = ()  # while there is one, TELL is called with each change, too
         self.tell: Subscriber = lambda change: None
+        self.journal: Journal | None = None
         self._patterns: dict[Tokens | None, Pattern] = {}  # that were asked for by RETRACT and UPDATE
         self._changes: list[tuple[Relation, Change]] = []  # made, and not told yet
         self._telling = False
@@ -92,11 +94,11 @@ class Store:
             kind = term.__class__
             if kind not in DIRECT or (kind is Symbol and "?" <= term.name < "@"):
                 term = code_of(term)
-                is_plain = is_plain and kind is Symbol
-            row.append(term)
                 variable = variable_in(term)
                 if variable is not None:
                     raise unbound(variable, fact)
+                is_plain = is_plain and kind is Symbol
+            row.append(term)
         if rest is not None:
             raise type_error(fact, "LIST")
         relation = self.relations.get((name, len(row)))
@@ -108,19 +110,36 @@ class Store:
             self.became_coded(relation)
         return relation, tuple(row)
 
+    def check(self, fact: Value) -> tuple[Relation, Row]:
+        """The same for a fact that is to be held; fails if it cannot be."""
+        relation, row = self.read_fact(fact)
+        if self.journal is not None:
+            self.journal.admit(relation, row)
+        return relation, row
+
     def add(self, fact: Value) -> bool:
         """Hold FACT; false if it is held already."""
         relation, row = self.read_fact(fact)
+        if self.journal is not None:
+            self.journal.admit(relation, row)
         added = self._add(relation, row)
         self._tell()
         return added
 
     def add_all(self, facts: Iterable[Value]) -> int:
         """Hold all FACTS, as one change; how many were not held already. All are read before any is taken."""
-        rows = [self.read_fact(fact) for fact in facts]
+        read = self.read_fact if self.journal is None else self.check
+        rows = [read(fact) for fact in facts]
         count = sum([self._add(relation, row) for relation, row in rows])
         self._tell()
         return count
+
+    def restore(self, fact: Value, note: object) -> None:
+        """Hold FACT, which a journal has written down with NOTE; nobody is told."""
+        relation, row = self.read_fact(fact)
+        self.known[relation.name] = None
+        relation.add(row)
+        relation.rows[row] = note
 
     def retract(self, pattern: Value) -> int:
         """Give up all facts that match PATTERN; how many there were."""
@@ -132,7 +151,7 @@ class Store:
 
     def update(self, pattern: Value, fact: Value) -> bool:
         """Let FACT take the place of all facts that match PATTERN; false if nothing changed by that."""
-        relation, row = self.read_fact(fact)
+        relation, row = self.check(fact)
         old, rows = self.matching(pattern)
         for each in rows:
             if old is not relation or each != row:
@@ -195,11 +214,15 @@ class Store:
             self.known[relation.name] = None
             self.became_relation(relation.name)
         relation.add(row)
+        if self.journal is not None:
+            self.journal.note_added(relation, row)
         if relation.watched or self.subscribers or self.audience:
             self._changes.append((relation, Change(True, relation.name, row)))
         return True
 
     def _remove(self, relation: Relation, row: Row) -> None:
+        if self.journal is not None:
+            self.journal.note_removed(relation, row)
         relation.remove(row)
         if relation.watched or self.subscribers or self.audience:
             self._changes.append((relation, Change(False, relation.name, row)))
@@ -212,9 +235,15 @@ class Store:
         relation.is_plain = False
 
     def _tell(self) -> None:
-        """Tell of the changes, those of whoever is told included, in the order in which they were made."""
-        if self._telling or not self._changes:
-            return
+        """A change is whole: tell of it, and of those that whoever is told makes, in their order."""
+        try:
+            if self._changes and not self._telling:
+                self._tell_changes()
+        finally:
+            if self.journal is not None:
+                self.journal.end_change()
+
+    def _tell_changes(self) -> None:
         self._telling = True
         trouble: list[BaseException] = []  # one who fails does not keep the others from hearing
         while self._changes:

@@ -5,9 +5,8 @@ The interpreter loads (interpreter.py); here is what a plan says to have it done
 
 from __future__ import annotations
 
-import os
-
 from eslang.base.arguments import UNSUPPLIED, take_keys
+from eslang.base.decoding import find_file
 from eslang.base.diagnostics import EslError
 from eslang.base.failure import simple_error, type_error
 from eslang.base.running import running
@@ -43,9 +42,3 @@ def load(path: Value, *options: Value) -> Value:
     except OSError as trouble:
         raise simple_error("the file cannot be read", path, (trouble.strerror or "").lower()) from None
     return T
-
-
-def find_file(name: str, loading: Value) -> str | None:
-    """Where the file NAME is: beside the file LOADING, or from the current folder."""
-    beside = os.path.join(os.path.dirname(loading.text), name) if loading is not None else name
-    return next((path for path in (beside, name) if os.path.isfile(path)), None)

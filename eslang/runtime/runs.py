@@ -75,6 +75,8 @@ class Runs:
                 scheduler.yield_turn(root)
             result = body()
             status = SUCCEEDED
+            if scheduler.settle is not None:
+                failures.run_apart(self.settle)
             return result
         except Failure as failure:
             root.failure, status = failure, FAILED
@@ -96,6 +98,8 @@ class Runs:
         self.lives.end(root, status)
         self.scheduler.calm_down()
 
+        if self.scheduler.settle is not None:
+            self.scheduler.settle()
     def is_inside(self) -> bool:
         """True if the stack at hand is that of a task of this interpreter, whose turn it is."""
         current = self.scheduler.current
@@ -182,7 +186,15 @@ class Runs:
         """Let tasks run, outside of any, until DONE. Raises Stop if they were stopped, and have all ended."""
 
         def is_over() -> bool:
+        self.settle()
             return done() if self.stopped is None else not self.lives.tops
+
+    def settle(self) -> None:
+        """Let what was changed be kept. Raises Failure if it cannot be."""
+        settle = self.scheduler.settle
+        trouble = settle() if settle is not None else None
+        if trouble is not None:
+            raise trouble
 
         if not is_over():
             self.begin()

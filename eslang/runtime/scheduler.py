@@ -18,7 +18,7 @@ from _queue import SimpleQueue
 
 from eslang.base.calls import depth
 from eslang.base.control import Stop
-from eslang.base.failure import control_error
+from eslang.base.failure import Failure, control_error
 from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Sequence
 from eslang.base.stack import require_room
 from eslang.runtime import failures
@@ -59,6 +59,7 @@ class Scheduler:
         self.end_run: Callable[[Stop], None] = lambda stop: None
         self.rest: Callable[[float | None], None] = lambda seconds: rest(self, seconds)
         self.between: Callable[[], None] | None = None  # what else the driver sees to, between two rounds
+        self.settle: Callable[[], Failure | None] | None = None  # keeps what a step has changed, at its end
         self.rouse: Callable[[], None] | None = None  # what tells whoever rests that something was posted
         self.lives = Lives(self)
         self.ticks = Ticks(self.safepoint)
@@ -138,6 +139,8 @@ class Scheduler:
         if self.driver is None:
             self._take_the_wheel(task)
         ready, posted, timers = self.ready, self.posted, self.timers
+        if self.settle is not None:
+            self.settle()
         if self.polls.waits:
             self.polls.look_again()
         while done is None or not done():
@@ -159,6 +162,8 @@ class Scheduler:
             if other is task:
                 return
             self.lives.step(other)
+            if self.settle is not None:
+                self.settle()
             if self.polls.waits:
                 self.polls.look_again()
 
@@ -210,6 +215,8 @@ class Scheduler:
             if task.dynamic.masked:
                 task.ending = stop
         self.hand_back()
+        if self.settle is not None and not task.dynamic.masked:
+            self.settle()
         if not task.dynamic.masked and (
             self.ready or self.polls.waits or self.timers or self.between or not self.posted.empty()
         ):
