@@ -89,6 +89,7 @@ class Interpreter:
         self.dynamic = Dynamic()  # of the task whose turn it is
         self.causes = Causes()
         self.goals = Patterns()
+        self.actions: set[Symbol] = set()  # of SCS: functions that end with an action
         self.runs = Runs(self, shuffled=shuffle, choices=choices, is_open=outside)
         self.scheduler = self.runs.scheduler
         self.ticks = self.scheduler.ticks

@@ -61,6 +61,9 @@ ROOMS = [
     "eslang.constructs.esl.checkpoints",
     "eslang.constructs.esl.tasks",
     "eslang.constructs.esl.task_nets",
+    "eslang.constructs.scs.steps",
+    "eslang.constructs.scs.choice",
+    "eslang.constructs.scs.parallel",
     "eslang.constructs.esl.guardians",
     "eslang.constructs.esl.timing",
     "eslang.constructs.esl.goals",
@@ -83,7 +86,6 @@ FILES = [
     "tasks",
     "widgets",
     "recovery",
-    "spacecraft",
     "testing",
 ]
 

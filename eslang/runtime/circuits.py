@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 class Level:
     """One entrance of a construct that is active while something holds."""
 
-    __slots__ = ("chain", "extent", "holds", "is_stale", "live", "logical", "polls", "task")
+    __slots__ = ("chain", "extent", "holds", "is_branch", "is_stale", "live", "logical", "polls", "task")
 
     def __init__(self, task: Task, logical: Logical, holds: Callable[[], bool]) -> None:
         outer: Level | None = logical.circuit
@@ -32,6 +32,7 @@ class Level:
         self.holds = holds
         self.polls = False  # it is asked after every action
         self.is_stale = False  # what it rests on has changed
+        self.is_branch = outer is not None and outer.is_branch  # others take turns with it, action by action
         self.live = True
         self.extent = Extent(task.dynamic)
         self.chain: tuple[Level, ...] = (*outer.chain, self) if outer is not None else (self,)
@@ -65,13 +66,26 @@ class Level:
         self.live = self.extent.live = False
 
 
+def begin_action() -> None:
+    """An atomic action is about to begin: nothing may have changed since the levels were asked."""
+    session = running.session
+    dynamic = session.dynamic
+    level: Level | None = dynamic.logical.circuit
+    if level is not None and not dynamic.masked:
+        for each in level.chain:
+            if each.is_stale and not each.ask():
+                leave(session, each)
+
+
 def end_of_action() -> None:
-    """An atomic action has ended: ask the levels, and let another branch have its turn."""
+    """An atomic action has ended: let another branch have its turn, and ask the levels."""
     session = running.session
     dynamic = session.dynamic
     level: Level | None = dynamic.logical.circuit
     if level is None or dynamic.masked:
         return
+    if level.is_branch:
+        take_turns(session)
     for each in level.chain:
         if (each.is_stale or each.polls) and not each.ask():
             leave(session, each)

@@ -69,3 +69,17 @@ def run_until(
     finally:
         extent.live = False
         scheduler.timers.call_off(timer)
+
+
+def run_masked(scheduler: Scheduler, body: Callable[[], Value]) -> Value:
+    """Run BODY, which no interrupt reaches; those that came meanwhile reach it at its end."""
+    task = scheduler.at_work()
+    dynamic = task.dynamic
+    dynamic.masked += 1
+    try:
+        result = failures.guarded(body)
+    finally:
+        dynamic.masked -= 1
+    if not dynamic.masked:
+        scheduler.attend(task)
+    return result

@@ -186,7 +186,6 @@ class Runs:
         """Let tasks run, outside of any, until DONE. Raises Stop if they were stopped, and have all ended."""
 
         def is_over() -> bool:
-        self.settle()
             return done() if self.stopped is None else not self.lives.tops
 
     def settle(self) -> None:

@@ -6,8 +6,8 @@ wrong with a clause is said at the place where it is wrong.
 
 from __future__ import annotations
 
-from eslang.base.failure import GENERAL_FAILURE, control_error
-from eslang.base.hints import TYPE_CHECKING, NoReturn
+from eslang.base.failure import GENERAL_FAILURE
+from eslang.base.hints import TYPE_CHECKING
 from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.shown import shown
 from eslang.base.suggest import nearest

@@ -10,8 +10,8 @@ from eslang.base.running import running
 from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.shapes import refuse
 from eslang.constructs.esl.tasks import LAMBDA, QUOTE, closure, make_task, name_of_form, promises_of
+from eslang.constructs.shapes import refuse
 from eslang.runtime import failures
 from eslang.runtime.lives import passed_on
 from eslang.runtime.nets import Net, all_must_succeed, any_may_fail, one_must_succeed

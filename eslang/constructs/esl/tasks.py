@@ -12,7 +12,7 @@ from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.text import String
 from eslang.compile.registry import CL, ESL, function, macro
 from eslang.constructs.esl.checkpoints import as_task
-from eslang.runtime import failures
+from eslang.runtime.guarding import run_masked
 from eslang.runtime.tasks import READY, RUNNING, WAITING, Interrupt, Task
 
 LAMBDA, QUOTE, QUASIQUOTE, LIST = (
@@ -262,25 +262,10 @@ def without_interrupts(form: Cons, environment: Any) -> Value:
 
 def without_interrupts_values(body: Any) -> Value:
     """All the values of the body."""
-    return masked(many_of(body))
+    return run_masked(running.session.scheduler, many_of(body))
 
 
 @function("(%call-without-interrupts body)", ESL, many=without_interrupts_values)
 def call_without_interrupts(body: Any) -> Value:
     """Call BODY; no interrupt reaches this task meanwhile."""
-    return masked(body)
-
-
-def masked(body: Any) -> Value:
-    """What BODY gives, run without interrupts."""
-    scheduler = running.session.scheduler
-    task = scheduler.at_work()
-    dynamic = task.dynamic
-    dynamic.masked += 1
-    try:
-        result = failures.guarded(body)
-    finally:
-        dynamic.masked -= 1
-    if not dynamic.masked:
-        scheduler.attend(task)
-    return result
+    return run_masked(running.session.scheduler, body)

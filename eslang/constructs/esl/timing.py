@@ -15,9 +15,9 @@ from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.base.text import String
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.shapes import refuse
 from eslang.constructs.conditions import test_form
 from eslang.constructs.esl.tasks import LAMBDA, QUOTE, closure
+from eslang.constructs.shapes import refuse
 from eslang.constructs.watching import Look
 from eslang.runtime import failures
 from eslang.runtime.guarding import run_until

@@ -17,6 +17,7 @@ from eslang.runtime.events import Wait
 from eslang.runtime.polls import CONDITION
 
 DEACTIVATED = Keyword("DEACTIVATED")  # what a step gives that neither succeeded nor failed
+LEFT = Keyword("LEFT")  # what a level gives whose conditions do not hold any more
 Bindings = dict[Symbol, Value]
 
 
@@ -25,7 +26,9 @@ class Asked:
 
     __slots__ = ("condition", "inquiry", "is_stale", "negated", "owner", "test", "value")
 
-    def __init__(self, condition: Value, test: Callable[[], Value], owner: Asker, negated: bool = False) -> None:
+    def __init__(
+        self, condition: Value, test: Callable[[], Value], owner: Asker, negated: bool = False
+    ) -> None:
         self.condition = condition
         self.test = test
         self.owner = owner
@@ -95,8 +98,10 @@ class Asker:
         if self.wait is not None:
             running.session.scheduler.wake([self.wait])
 
-    def run(self, on: list[Asked], holds: Callable[[], bool], bindings: Bindings, body: Callable[[], Value]) -> Value:
-        """What BODY gives as long as HOLDS, which asks ON, is true; DEACTIVATED if that ends."""
+    def run(
+        self, on: list[Asked], holds: Callable[[], bool], bindings: Bindings, body: Callable[[], Value]
+    ) -> Value:
+        """What BODY gives as long as HOLDS, which asks ON, is true; LEFT if that ends."""
         dynamic = running.session.dynamic
         outer = dynamic.logical
 
@@ -113,7 +118,7 @@ class Asker:
         except Deactivated as jump:
             if jump.target is not level:
                 raise
-            return DEACTIVATED
+            return LEFT
         finally:
             level.end()
             self.level = None
@@ -165,7 +170,8 @@ def run_under(modifiers: Any, body: Callable[[], Value]) -> Value:
         dynamic.logical = outer.within(bindings)
         if not lasting:
             return body()
-        return asker.run(lasting, lambda: all([each.holds() for each in lasting]), bindings, body)
+        value = asker.run(lasting, lambda: all([each.holds() for each in lasting]), bindings, body)
+        return DEACTIVATED if value is LEFT else value
     finally:
         dynamic.logical = outer
         asker.end()

@@ -1,0 +1,100 @@
+"""Steps in parallel (SCS Appendix C): do all.
+
+Each step is a task. After every action any of those that are ready goes on,
+as chance has it.
+"""
+
+from __future__ import annotations
+
+from eslang.base.hints import Any, Callable
+from eslang.base.lists import Cons
+from eslang.base.running import running
+from eslang.base.symbols import Symbol, T, Value
+from eslang.compile.registry import SCS, function, macro
+from eslang.constructs.scs.asking import run_under
+from eslang.constructs.scs.steps import Step, expand, persist, read_modifiers, read_steps
+from eslang.runtime import failures
+from eslang.runtime.circuits import Level
+from eslang.runtime.lives import passed_on
+from eslang.runtime.nets import Net, all_must_succeed
+
+ALL = Symbol.intern("%DO-ALL", SCS)
+
+
+@macro("(do-all &rest steps)", SCS)
+def do_all(form: Cons, environment: Any) -> Value:
+    """Do STEPS in parallel, one action at a time, in any order, as chance has it.
+
+    It ends when all have ended; a step that is deactivated has ended. As soon
+    as one fails, the others are aborted. Modifiers may stand before STEPS, as
+    in DO.
+
+    Returns: T; :deactivated, if a modifier ends it.
+    Fails:   as the first of STEPS that fails.
+    Waits:   until all STEPS have ended.
+
+    Example:
+        ? (let ((count 0))
+            (do-all (scs:do (incf count) (incf count)) (incf count))
+            count)
+        3
+
+    Source: SCS Appendix C.
+    """
+    return expand(ALL, form, environment, None)
+
+
+@macro("(do*-all &rest steps)", SCS)
+def do_star_all(form: Cons, environment: Any) -> Value:
+    """Do as DO-ALL does, but steps that fail are tried again until they succeed.
+
+    Returns: T; :deactivated, if a modifier ends it.
+    Waits:   until all STEPS have ended.
+
+    Example:
+        ? (let ((tries 0))
+            (do*-all (if (< (incf tries) 3) (fail :busy)) (princ "other"))
+            tries)
+        other
+        3
+
+    Source: SCS Appendix C.
+    """
+    return expand(ALL, form, environment, T)
+
+
+@function("(%do-all modifiers steps starred)", SCS)
+def do_all_of(modifiers: Value, steps: Value, starred: Value) -> Value:
+    """DO-ALL, or DO*-ALL if STARRED."""
+    listed = read_steps(steps)
+    return run_under(read_modifiers(modifiers), lambda: run_all(listed, starred is not None))
+
+
+def run_all(steps: list[Step], starred: bool) -> Value:
+    """Run STEPS as branches, until all have ended; fail as soon as one does."""
+    session = running.session
+    scheduler = session.scheduler
+    net = Net(scheduler, all_must_succeed)
+    parent = scheduler.at_work()
+    for step in steps:
+        name = str(step.operator or "step").lower()
+        net.members.append(scheduler.lives.create(name, branch(step, starred), parent))
+    session.chance.shuffle(net.members)
+    dynamic = parent.dynamic
+    outer = dynamic.logical
+    level = Level(parent, outer, lambda: True)
+    level.is_branch = True  # the members begin in it
+    dynamic.logical = outer._replace(circuit=level)
+    try:
+        net.run()
+    finally:
+        level.end()
+        dynamic.logical = outer
+    if net.deciding is not None:
+        return failures.signal(passed_on(net.deciding), continuable=True)
+    return T
+
+
+def branch(step: Step, starred: bool) -> Callable[[], Value]:
+    """What the task of one of the steps does."""
+    return (lambda: persist(step.run)) if starred else step.run
