@@ -14,17 +14,21 @@ class Logical(NamedTuple):
     """The bindings in force, and who else matters here.
 
     query: whose solutions are gone through; inquiry: what notes the reads of a
-    condition; circuit: the innermost construct that goes on while a condition holds.
+    condition; circuit: the innermost construct that goes on while a condition holds;
+    learned: the choice to which a reinforcement would be due.
     """
 
     bindings: dict[Symbol, Value]
     query: Any = None
     inquiry: Any = None
     circuit: Any = None
+    learned: Any = None
 
     def within(self, bindings: dict[Symbol, Value], query: Any = None) -> Logical:
         """The same, with more BINDINGS in force, and the innermost QUERY if that is told."""
-        return Logical({**self.bindings, **bindings}, query or self.query, self.inquiry, self.circuit)
+        return Logical(
+            {**self.bindings, **bindings}, query or self.query, self.inquiry, self.circuit, self.learned
+        )
 
 
 NOTHING_BOUND = Logical({})

@@ -15,6 +15,7 @@ from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.compile.registry import CL, SCS, function, macro
 from eslang.constructs.conditions import test_form
 from eslang.constructs.scs.asking import DEACTIVATED, LEFT, Asked, Asker, Bindings, run_under
+from eslang.constructs.scs.learning import Learned, discount_of, rate_of
 from eslang.constructs.scs.steps import (
     Step,
     attempt,
@@ -130,8 +131,9 @@ def do_any_of(modifiers: Value, steps: Value, starred: Value) -> Value:
 
 
 class Alternative(NamedTuple):
-    """One clause: its condition, its utility if it has one, and its steps."""
+    """One clause: what it does, as it is written; its condition, its utility if it has one, and its steps."""
 
+    action: Value
     asked: Asked
     utility: Callable[[], Value] | None
     steps: list[Step]
@@ -152,7 +154,9 @@ def clauses_form(clauses: Value, environment: Any, within: str, valued: bool) ->
         if valued:
             utility, rest = lisp_list(LAMBDA, None, rest.car), rest.cdr
         test = lisp_list(LAMBDA, None, test_form(condition, environment))
-        parts.append(lisp_list(LIST, lisp_list(QUOTE, condition), test, utility, steps_form(rest)))
+        action = rest.car if rest is not None and rest.cdr is None else rest
+        data = lisp_list(QUOTE, lisp_list(condition, action))
+        parts.append(lisp_list(LIST, data, test, utility, steps_form(rest)))
         clauses = clauses.cdr
     return Cons(LIST, from_items(parts))
 
@@ -208,6 +212,8 @@ def do_best(form: Cons, environment: Any) -> Value:
     Of those whose condition holds, the one whose UTILITY is highest then; of
     several, any. When its condition does not hold any more, the choice is
     made anew; when it fails, another is tried. While none holds, it idles.
+    With :learn t among the modifiers, or :learn RATE, each utility is
+    multiplied by what was learned of its steps (see REINFORCE).
 
     Returns: the value of the steps that succeed; :deactivated, if a modifier
              ends it, or nothing but deactivated steps are left.
@@ -247,21 +253,24 @@ def do_star_best(form: Cons, environment: Any) -> Value:
 
 def _expand_clauses(function_name: Symbol, form: Cons, environment: Any, starred: Value) -> Value:
     within = str(form.car).lower()
-    modifiers, clauses = parts_of(form, environment, within)
-    listed = clauses_form(clauses, environment, within, function_name is BEST)
-    return lisp_list(function_name, modifiers, listed, starred)
+    valued = function_name is BEST
+    options: dict[str, Value] = {"LEARN": None} if valued else {}
+    modifiers, clauses = parts_of(form, environment, within, options)
+    listed = clauses_form(clauses, environment, within, valued)
+    return lisp_list(function_name, modifiers, listed, starred, *options.values())
 
 
 class Choice(Asker):
     """One entrance of DO-FIRST or DO-BEST."""
 
-    __slots__ = ("alternatives", "tries")
+    __slots__ = ("alternatives", "rate", "tries")
 
-    def __init__(self, clauses: Value, starred: bool) -> None:
+    def __init__(self, clauses: Value, starred: bool, learn: Value = None) -> None:
         super().__init__()
+        self.rate = rate_of(learn)
         self.alternatives = [
-            Alternative(self.ask(condition, test), utility, read_steps(steps))
-            for condition, test, utility, steps in map(items, items(clauses))
+            Alternative(data.cdr.car, self.ask(data.car, test), utility, read_steps(steps))
+            for data, test, utility, steps in map(items, items(clauses))
         ]
         self.tries = Tries(len(self.alternatives), starred)
 
@@ -299,6 +308,9 @@ class Choice(Asker):
                 self.rest()
                 continue
             mine = self.alternatives[number]
+            dynamic = running.session.dynamic
+            if self.rate is not None:
+                dynamic.logical = dynamic.logical._replace(learned=Learned(mine.action, self.rate))
             value = self.do_one(mine, [mine.asked], mine.asked.holds, True)
             if value is not LEFT and self.tries.note(number, value):
                 return value
@@ -327,7 +339,8 @@ class Choice(Asker):
         outer = dynamic.logical
         dynamic.logical = outer.within(mine.asked.bindings)
         try:
-            return as_real(failures.guarded(mine.utility))  # type: ignore[arg-type]
+            utility = as_real(failures.guarded(mine.utility))  # type: ignore[arg-type]
+            return utility if self.rate is None else utility * discount_of(mine.action)
         finally:
             dynamic.logical = outer
 
@@ -357,18 +370,18 @@ def as_real(value: Value) -> Value:
 @function("(%do-first modifiers clauses starred)", SCS)
 def do_first_of(modifiers: Value, clauses: Value, starred: Value) -> Value:
     """DO-FIRST, or DO*-FIRST if STARRED."""
-    return _chosen(modifiers, clauses, starred, Choice.run_first)
+    return _chosen(modifiers, lambda: Choice(clauses, starred is not None), Choice.run_first)
 
 
-@function("(%do-best modifiers clauses starred)", SCS)
-def do_best_of(modifiers: Value, clauses: Value, starred: Value) -> Value:
+@function("(%do-best modifiers clauses starred learn)", SCS)
+def do_best_of(modifiers: Value, clauses: Value, starred: Value, learn: Value) -> Value:
     """DO-BEST, or DO*-BEST if STARRED."""
-    return _chosen(modifiers, clauses, starred, Choice.run_best)
+    return _chosen(modifiers, lambda: Choice(clauses, starred is not None, learn), Choice.run_best)
 
 
-def _chosen(modifiers: Value, clauses: Value, starred: Value, how: Callable[[Choice], Value]) -> Value:
+def _chosen(modifiers: Value, make: Callable[[], Choice], how: Callable[[Choice], Value]) -> Value:
     def body() -> Value:
-        choice = Choice(clauses, starred is not None)
+        choice = make()
         try:
             return how(choice)
         finally:

@@ -61,12 +61,18 @@ def asks_itself(operator: Value) -> bool:
 # --- the shape of constructs ---------------------------------------------------------
 
 
-def parts_of(form: Cons, environment: Any, within: str) -> tuple[Value, Value]:
-    """The form that gives the modifiers of FORM, and the rest of its body."""
+def parts_of(
+    form: Cons, environment: Any, within: str, options: dict[str, Value] | None = None
+) -> tuple[Value, Value]:
+    """The form that gives the modifiers of FORM, and the rest of its body; OPTIONS get their values."""
     modifiers: list[Value] = []
     rest = form.cdr
     while rest.__class__ is Cons and isinstance(rest.car, Keyword):
         keyword = rest.car
+        if options is not None and keyword.name in options and rest.cdr is not None:
+            options[keyword.name] = rest.cdr.car
+            rest = rest.cdr.cdr
+            continue
         if keyword.name not in MODIFIERS:
             wrong = f"`{shown(keyword)}` is no modifier of a step"
             hint = "write `:while`, `:until`, `:when` or `:unless`, and a condition"
