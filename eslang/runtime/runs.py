@@ -40,6 +40,7 @@ class Runs:
         self.root: Task | None = None
         self.stopped: Stop | None = None  # what the run is to end with, once all has been aborted
         self.gate = Gate()
+        self.errands: dict[Any, bool] = {}  # what other threads left to be done (visits.py)
         self._stack: Any = None  # that of the root
 
     def run(self, body: Callable[[], Value]) -> Value:
@@ -54,7 +55,7 @@ class Runs:
         try:
             return self._as_root(body, name)
         finally:
-            self.gate.open()
+            self.leave()
 
     def _as_root(self, body: Callable[[], Any], name: str) -> Any:
         """What BODY gives, run as a root. What was posted before it begins is done before."""
@@ -74,9 +75,9 @@ class Runs:
             if came:
                 scheduler.yield_turn(root)
             result = body()
-            status = SUCCEEDED
             if scheduler.settle is not None:
                 failures.run_apart(self.settle)
+            status = SUCCEEDED
             return result
         except Failure as failure:
             root.failure, status = failure, FAILED
@@ -97,9 +98,9 @@ class Runs:
         self.root = None
         self.lives.end(root, status)
         self.scheduler.calm_down()
-
         if self.scheduler.settle is not None:
             self.scheduler.settle()
+
     def is_inside(self) -> bool:
         """True if the stack at hand is that of a task of this interpreter, whose turn it is."""
         current = self.scheduler.current
@@ -117,13 +118,35 @@ class Runs:
         if gate.is_homeless():
             self._forget_all()
         elif self.lives.count:
-            gate.open()
+            self.leave()
             raise control_error(
                 "the tasks of this interpreter live in another thread; signal them from there"
             )
         gate.move_here()
         self.scheduler.driver = None
         self.lives.forget_spare()
+
+    def leave(self) -> None:
+        """Nothing is at work any more: open the gate, and do what other threads left to be done."""
+        self.gate.open()
+        self.do_errands()
+
+    def do_errands(self) -> None:
+        """Do what other threads left to be done, if nothing is at work: who is will do it."""
+        if self.errands:
+            from eslang.runtime.visits import serve
+
+            serve(self)
+
+    def alone(self, action: Callable[[], object]) -> None:
+        """Do ACTION, which changes tasks from outside of any, while there is no visitor."""
+        entered = not self.gate.is_ours() and self.gate.let_in(patient=True)
+        try:
+            action()
+        finally:
+            if entered:
+                self.gate.let_out()
+                self.do_errands()
 
     def _forget_all(self) -> None:
         """Forget the tasks: their stacks have gone with their thread."""
@@ -140,10 +163,12 @@ class Runs:
     def check_outside(self) -> None:
         """Refuse what cannot be done from within, nor in another thread than that of the tasks."""
         self.begin()
-        self.gate.open()
+        self.leave()
 
     def obstacle(self) -> str:
         """Why this cannot be entered, now that it is at work."""
+        if self.gate.is_ours() and not self.gate.is_closed():
+            return "facts are being changed or asked; what is told of that cannot call this interpreter"
         if not self.gate.is_here():
             return "this interpreter is at work in another thread; signal it from there"
         if self.is_inside():
@@ -161,7 +186,15 @@ class Runs:
         self.check_outside()
         self.drive_until(lambda: all(task.daemon for task in self.lives.tops))
         self.abort_all()
+        self.settle()
         self.raise_unseen()
+
+    def settle(self) -> None:
+        """Let what was changed be kept. Raises Failure if it cannot be."""
+        settle = self.scheduler.settle
+        trouble = settle() if settle is not None else None
+        if trouble is not None:
+            raise trouble
 
     def raise_unseen(self) -> None:
         """Raise a failure of the run's own tasks that nobody has looked at."""
@@ -172,29 +205,30 @@ class Runs:
 
     def abort_all(self) -> None:
         """Abort all that belongs to the run, and wait until it has ended."""
-        for task in list(self.lives.tops):
-            self.lives.abort(task, "run")
+        self.abort_tops()
         self.drive_until(lambda: not self.lives.tops)
+
+    def abort_tops(self) -> None:
+        """Abort all that belongs to the run."""
+
+        def abort() -> None:
+            for task in list(self.lives.tops):
+                self.lives.abort(task, "run")
+
+        self.alone(abort)
 
     def let_go(self) -> None:
         """Let go of what is kept for tasks to come: nothing comes any more."""
         self.lives.drop_spare()
         while not self.scheduler.posted.empty():
             self.scheduler.posted.get()
+        self.do_errands()
 
     def drive_until(self, done: Callable[[], bool]) -> None:
         """Let tasks run, outside of any, until DONE. Raises Stop if they were stopped, and have all ended."""
 
         def is_over() -> bool:
-        self.settle()
             return done() if self.stopped is None else not self.lives.tops
-
-    def settle(self) -> None:
-        """Let what was changed be kept. Raises Failure if it cannot be."""
-        settle = self.scheduler.settle
-        trouble = settle() if settle is not None else None
-        if trouble is not None:
-            raise trouble
 
         if not is_over():
             self.begin()
@@ -202,7 +236,7 @@ class Runs:
                 self.scheduler.drive(done=is_over)
             finally:
                 self.scheduler.calm_down()
-                self.gate.open()
+                self.leave()
         if self.stopped is not None:
             stop, self.stopped = self.stopped, None
             self.lives.unseen = ()
@@ -219,8 +253,7 @@ class Runs:
                 scheduler.ready.appendleft(root)
         else:
             self.stopped = stop
-            for task in list(self.lives.tops):
-                self.lives.abort(task, "run")
+            self.abort_tops()
 
     def end_deadlock(self) -> None:
         """Nothing can wake anything: the task that the run waits for fails with :deadlock."""
