@@ -62,9 +62,9 @@ def visit(runs: Runs, work: Callable[[], Any]) -> Any:
 
 
 def stir(runs: Runs) -> None:
-    """What was done outside of any task is to be noticed by those that wait."""
+    """What was done outside of any task is to be noticed by those that it has woken, or may wake."""
     scheduler = runs.scheduler
-    if scheduler.current is None and runs.lives.count and scheduler.posted.empty():
+    if scheduler.current is None and (scheduler.ready or scheduler.polls.waits) and scheduler.posted.empty():
         scheduler.post(lambda: None)
 
 
