@@ -17,7 +17,8 @@ FIRST_LINES = re.compile(r"^(?:;+|#) claim ([A-Z]+-[\w.-]+)(?:: (.*))?$", re.M)
 INTRODUCTION = """\
 # Conformance: the papers' sentences and the tests that show them
 
-This page is made from `tests/conformance/claims.toml`, the files beside it, the transcripts, and some tests in Python.
+This page is made from `tests/conformance/claims.toml`, the files beside it, the transcripts,
+and some tests in Python.
 ESL is [Gat 1996]; ARM is [Gat and Pell 1998].
 LR is the language reference, where it decides what the papers leave open.
 A sentence is quoted as printed, hyphenation undone.
