@@ -66,6 +66,12 @@ class Interpreter:
     keeps the facts of the database; those in it are there from the start.
     """
 
+    closed = False
+    _chance: Random | None = None  # this and the following are made when first wanted
+    _outside: Outside | None = None
+    _database: Facts | None = None
+    _knowledge: Knowledge | None = None
+
     def __init__(
         self,
         *,
@@ -81,7 +87,6 @@ class Interpreter:
         self.image = Image()
         self.seed = seed
         self.clock = make_clock(clock)
-        self._chance: Random | None = None
         self.output = OutputStream(output) if output is not None else standard_output()
         self.bindings = Bindings(self.image)
         self.dynamic = Dynamic()  # of the task whose turn it is
@@ -91,10 +96,6 @@ class Interpreter:
         self.scheduler = self.runs.scheduler
         self.ticks = self.scheduler.ticks
         self.hooks = Hooks(self.clock.now, lambda: self.scheduler.current)
-        self.closed = False
-        self._outside: Outside | None = None
-        self._database: Facts | None = None
-        self._knowledge: Knowledge | None = None
         self.touched = 0  # how often a plan read what may change by itself
         self._library = True  # what is defined now is the library's
         self.support = {**SUPPORT, **self.bindings.support(), **failures.SUPPORT, "%ticks": self.ticks}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from around import run, turns, whole_agent
+from around import Worker, in_thread, whole_agent
 from eslang import EslError, Failure, Interpreter, Keyword, Symbol
 from eslang.knowledge import Change
 
@@ -22,34 +21,6 @@ def agent() -> Iterator[Interpreter]:
     """An interpreter that waits for the outside."""
     with whole_agent(PLANS, outside=True) as made:
         yield made
-
-
-class Worker(threading.Thread):
-    """A thread that does some work at once; what came of it is `found`."""
-
-    def __init__(self, work: Callable[[], Any]) -> None:
-        super().__init__()
-        self.work = work
-        self.found: Any = None
-        self.start()
-
-    def run(self) -> None:
-        """Do it."""
-        try:
-            self.found = self.work()
-        except Exception as error:
-            self.found = error
-
-    def end(self) -> Any:
-        """What came of it."""
-        self.join(20)
-        assert not self.is_alive()
-        return self.found
-
-
-def in_thread(work: Callable[[], Any]) -> Any:
-    """What WORK gives, or raises, in another thread."""
-    return Worker(work).end()
 
 
 def when_waiting(agent: Interpreter, work: Callable[[], Any]) -> Worker:
@@ -363,57 +334,3 @@ def test_a_change_that_is_left_when_the_interpreter_is_closed_is_dropped() -> No
     gate.let_out()
     agent.runs.let_go()
     assert agent.scheduler.posted.empty() and not agent.runs.errands
-
-
-# --- coroutines -----------------------------------------------------------------------------
-
-
-def test_a_coroutine_changes_facts_between_the_steps_of_a_guest(agent: Interpreter) -> None:
-    agent.eval("(defun watch-for (it) (wait-until `(seen ,it)) (list :saw it))")
-
-    async def main() -> Any:
-        calls = [asyncio.ensure_future(agent.call_async("watch-for", Symbol(it))) for it in ("cup", "jug")]
-        await turns()
-        assert agent.facts.add("seen", "cup") is True
-        assert agent.facts.query("(seen ?x)") == [{"x": Symbol("cup")}]
-        first = await calls[0]
-        assert not calls[1].done()
-        worker = Worker(lambda: agent.facts.add("seen", "jug"))
-        second = await calls[1]
-        assert worker.end() in (True, None)
-        return [first, second]
-
-    saw = Keyword("saw")
-    assert run(main) == [[saw, Symbol("cup")], [saw, Symbol("jug")]]
-
-
-def test_coroutines_of_a_plain_call_change_facts_while_the_plan_rests(agent: Interpreter) -> None:
-    @agent.primitive
-    async def look() -> bool:
-        await asyncio.sleep(0)
-        agent.facts.add("seen", "cup")
-        await asyncio.get_running_loop().run_in_executor(None, lambda: agent.facts.add("seen", "jug"))
-        while not agent.facts.holds("(noticed)"):
-            await asyncio.sleep(0)
-        return agent.facts.holds("(seen jug)")
-
-    text = "(multiple-value-list (task-net (a (look)) (b (wait-until (seen cup)) (assert '(noticed)) :saw)))"
-    assert agent.eval(text) == [True, Keyword("saw")]
-
-
-def test_a_foreign_loop_does_not_take_the_tasks_of_an_interpreter_at_home_elsewhere(
-    agent: Interpreter,
-) -> None:
-    agent.eval("(spawn (progn (wait-until (seen cup)) (note :woken))) (yield)")
-
-    async def elsewhere() -> Any:
-        found = agent.facts.add("seen", "cup")
-        with pytest.raises(Failure, match="live in another thread"):
-            agent.eval("1")
-        await turns()
-        return found
-
-    assert in_thread(lambda: asyncio.run(elsewhere())) is True
-    assert agent.outside.guest.loop is None
-    agent.finish()
-    assert agent.value("*told*") == [Keyword("woken")]
