@@ -51,9 +51,7 @@ class Facts(Store):
 
     def is_relation(self, name: Symbol) -> bool:
         """Whether NAME was declared, or has rules, or has or had facts."""
-        return (
-            name in self.known or name in self.declared or any(each[0] is name for each in self.rules.by_name)
-        )
+        return name in self.known or name in self.declared or name in self.rules.arities
 
     def is_test(self, name: Symbol) -> bool:
         """Whether NAME in a query is a call of Lisp."""
