@@ -15,9 +15,9 @@ from eslang.base.suggest import nearest
 from eslang.base.symbols import Keyword, Symbol
 from eslang.devices.commands import COMMANDS, Sent
 from eslang.devices.description import (
+    DESCRIBING,
     HEALTH_STATE,
     POWER_STATE,
-    describes,
     known_state,
     read_description,
     tell,
@@ -27,6 +27,7 @@ from eslang.devices.power import settle
 
 if TYPE_CHECKING:
     from eslang.interpreter import Interpreter
+    from eslang.knowledge import Change
 
 Readings = list[tuple[Symbol, Any]]
 
@@ -35,20 +36,19 @@ class Hardware:
     """All devices that the facts of one interpreter describe."""
 
     def __init__(self, agent: Interpreter) -> None:
-        self.facts = agent.database
+        self.facts = agent.facts
         self.now = agent.clock.now
         self.after: Callable[[float, Callable[[], None]], None] = agent.after
         self.devices: dict[Any, Device] = {}
         self.is_stale = True  # the description has changed since it was read
-        for relation in (POWER_STATE, HEALTH_STATE):
-            self.facts.declare_property(relation)
+        agent.call("esl::%declare-states")
         self.facts.subscribe(self.hear)
 
     # --- the description ---------------------------------------------------------
 
-    def hear(self, change: Any) -> None:
+    def hear(self, change: Change) -> None:
         """A fact has come or gone."""
-        if describes(change.name):
+        if change.relation in DESCRIBING:
             self.is_stale = True
 
     def refresh(self) -> None:

@@ -108,8 +108,8 @@ def reply(sent: Sent) -> Any:
     return sent.reply()
 
 
-def install(agent: Interpreter) -> None:
-    """Give an interpreter its spacecraft."""
+def install(agent: Interpreter) -> Spacecraft:
+    """Give an interpreter its spacecraft, and return it."""
     craft = Spacecraft(agent)
     agent.primitive(signature="(esl::%send-command device command)")(craft.send_command)
     agent.primitive(signature="(esl::%next-pause sent)", outside=False)(next_pause)
@@ -117,3 +117,4 @@ def install(agent: Interpreter) -> None:
     agent.primitive(signature="(esl::device-power-state device)", outside=False)(craft.device_power_state)
     agent.primitive(signature="(esl::device-health-state device)", outside=False)(craft.device_health_state)
     agent.primitive(signature="(esl::break-device device health)", outside=False)(craft.break_device)
+    return craft

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from eslang import Failure, Interpreter
 from eslang.base.symbols import Keyword
 from eslang.devices.device import Device
-from eslang.devices.hardware import Hardware
 from eslang.devices.power import load
+from eslang.devices.spacecraft import install
 
 NAMES = [
     ":neb1",
@@ -44,9 +44,9 @@ class Flight:
 
     def __init__(self) -> None:
         self.agent = Interpreter(clock="virtual", output=StringIO())
+        craft = install(self.agent)
         self.agent.eval("(progn (load-spacecraft) (device-power-state :neb1))")
-        subscribers: Any = self.agent.database.subscribers
-        self.hardware: Hardware = subscribers[0].__self__
+        self.hardware = craft.hardware
         self.overload = 0
         self.agent.hooks.listeners.append(lambda event: self.look())
 
