@@ -155,5 +155,5 @@ class Facts(Store):
         """Forget the plans, and wake who asked these relations."""
         self._forget_plans()
         woken = dict.fromkeys(watch for name in names for watch in woken_by_rules(self.relation(*name)))
-        for watch in woken:
-            watch.callback(None)
+        self._calls += [(watch.wake, None) for watch in woken]
+        self._deliver()
