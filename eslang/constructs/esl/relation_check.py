@@ -19,7 +19,7 @@ from eslang.base.suggest import nearest
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.analyser import Use
 from eslang.compile.check import Judge
-from eslang.compile.registry import CL
+from eslang.compile.registry import CL, ESL
 from eslang.constructs.esl.mentions import (
     ASKED,
     ASSERTED,
@@ -81,14 +81,15 @@ class RelationCheck(Judge):
 
     def is_undeclared(self, name: Symbol) -> bool:
         """Whether NAME is asserted only, in a program that declares its relations."""
-        return self.mentions.is_strict and all(each.how == ASSERTED for each in self.known[name])
+        only_asserted = all(each.how == ASSERTED for each in self.known[name])
+        return self.mentions.is_strict and only_asserted and not is_of_library(name)
 
     def unknown(self, mention: Mention) -> Iterator[Diagnostic]:
         """Nothing declares, derives or asserts what is asked."""
         name, is_condition = mention.name, mention.how == CONDITION
-        if self.is_operator(name):
+        if self.is_operator(name) or is_of_library(name):
             return
-        known = [each.name for each in self.known]
+        known = [each.name for each in (*self.known, *filter(is_of_library, self.accessible()))]
         functions = [] if not is_condition else [s.name for s in self.accessible() if self.is_operator(s)]
         near = nearest(name.name, [*known, *functions])
         if not self.mentions.is_whole and not self.mentions.is_strict and not (is_condition and near):
@@ -229,6 +230,11 @@ def shows(term: Value) -> Value:
     if term.car is LOGICAL_BINDING:
         return UNKNOWN
     return Cons(shows(term.car), shows(term.cdr))
+
+
+def is_of_library(name: Symbol) -> bool:
+    """Whether NAME is a word of the language, such as POWER-STATE: the devices may assert facts of it."""
+    return name.package == ESL
 
 
 def counted(number: int) -> str:
