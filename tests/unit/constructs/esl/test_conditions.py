@@ -1,9 +1,8 @@
-"""Conditions: what one means wherever it stands, and what wakes those who wait for it."""
+"""Conditions: what one means wherever it stands, and how they are waited for."""
 
 from __future__ import annotations
 
 from io import StringIO
-from typing import Any
 
 import pytest
 
@@ -31,7 +30,7 @@ def holds(condition: str, before: str = "") -> bool:
     return line == "NIL"
 
 
-# --- what a condition means ----------------------------------------------------------
+# --- what a condition means -----------------------------------------------------------
 
 
 FACTS = """
@@ -172,7 +171,7 @@ def test_what_is_wrong_in_a_condition_is_a_failure_of_the_one_who_asks(form: str
     assert came_to(f"{FACTS} {form}").startswith(failure)
 
 
-# --- waiting -------------------------------------------------------------------------
+# --- waiting --------------------------------------------------------------------------
 
 
 def test_a_condition_that_holds_is_not_waited_for() -> None:
@@ -305,227 +304,3 @@ def test_who_stops_waiting_is_not_woken_any_more() -> None:
     with Interpreter(clock="virtual", output=StringIO()) as agent:
         agent.eval(text)
         assert [relation.watched for relation in agent.database.relations.values()] == [{}]
-
-
-# --- what wakes ----------------------------------------------------------------------
-
-
-class Questions:
-    """How often the database was asked whether a condition holds, by the waits of a plan."""
-
-    def __init__(self, text: str) -> None:
-        self.count = 0
-        output = StringIO()
-        with Interpreter(clock="virtual", output=output) as agent:
-            ask = agent.database.ask
-
-            def counted(*given: Any) -> Any:
-                self.count += 1
-                return ask(*given)
-
-            agent.database.ask = counted  # type: ignore[method-assign]
-            agent.eval(text)
-        self.lines = output.getvalue().split()
-
-
-FAR = "(defrule (far ?x) (is-a ?x agent) (not (at ?x lab)))"
-MOVES = "(dotimes (i 5) (sleep 1) (assert (list 'temperature i)))"
-
-
-@pytest.mark.parametrize(
-    ("condition", "before", "changes", "count"),
-    [
-        # condition, what is there, what is done one second after the other, questions
-        ("(at robot lab)", "", "((assert (at robot lab)))", 2),
-        ("(at robot lab)", "", "((assert (at cup lab)) (assert (at robot dock)) (assert (at robot lab)))", 2),
-        ("(at ?who lab)", "", "((assert (at cup dock)) (assert (at robot lab)))", 2),
-        (
-            "(not (at robot ?_))",
-            "(assert '(at robot lab))",
-            "((assert (at cup lab)) (retract (at robot lab)))",
-            2,
-        ),
-        # another fact keeps it false: that has to be looked at
-        (
-            "(not (at robot ?_))",
-            "(assert '(at robot lab)) (assert '(at robot dock))",
-            "((retract (at robot lab)) (retract (at robot dock)))",
-            3,
-        ),
-        (
-            "(near robot)",
-            "(defrule (near ?x) (at ?x lab))",
-            "((assert (at cup lab)) (assert (at robot lab)))",
-            2,
-        ),
-        ("(near robot)", "", "((assert (at robot lab)) (defrule))", 2),
-        ("(and (a ?x) (b ?x))", "(assert '(a 1))", "((assert (b 2)) (assert (c 1)) (assert (b 1)))", 2),
-        (
-            "(far robot)",
-            FAR,
-            "((assert (is-a robot agent)))",
-            2,
-        ),
-        (
-            "(far robot)",
-            f"{FAR} (assert '(is-a robot agent)) (assert '(at robot lab))",
-            "((retract (at cup lab)) (assert (at cup lab)) (retract (at robot lab)))",
-            2,
-        ),
-    ],
-)
-def test_a_condition_is_asked_again_when_what_it_rests_on_has_changed(
-    condition: str, before: str, changes: str, count: int
-) -> None:
-    text = f"""
-    {before}
-    (task-net
-      (waiter (wait-until {condition}) (print :woken))
-      (world {MOVES}
-             (dolist (change '{changes})
-               (sleep 1)
-               (if (eq (first change) 'defrule)
-                   (defrule (near ?x) (at ?x lab))
-                   (apply (first change) (rest change))))))
-    """
-    asked = Questions(text)
-    assert (asked.lines, asked.count) == ([":WOKEN"], count)
-
-
-def test_of_many_waiting_tasks_only_the_one_concerned_asks_again() -> None:
-    text = """
-    (let ((tasks (loop for i from 0 below 100
-                       collect (let ((i i)) (spawn (wait-until `(arrived ,i)))))))
-      (yield)
-      (assert '(arrived 42))
-      (yield)
-      (print (task-status (nth 42 tasks)))
-      (print (count :waiting (mapcar #'task-status tasks)))
-      (mapc #'abort-task tasks))
-    """
-    asked = Questions(text)
-    assert (asked.lines, asked.count) == ([":SUCCEEDED", "99"], 101)
-
-
-def test_recursive_rules_wake_as_well() -> None:
-    text = """
-    (defrule (reaches ?x ?y) (way ?x ?y))
-    (defrule (reaches ?x ?z) (reaches ?x ?y) (way ?y ?z))
-    (assert '(way a b)) (assert '(way c d)) (assert '(way b a))
-    (task-net
-      (there (wait-until (reaches a d)) (print :there))
-      (cut-off (wait-until (and (way c d) (not (reaches a c)) (reaches a d2))) (print :never))
-      (world (sleep 1) (assert '(way x y)) (sleep 1) (assert '(way b c)) (sleep 1) (abort-task cut-off)))
-    """
-    asked = Questions(text)
-    assert asked.lines == [":THERE"]
-
-
-def test_a_condition_that_asks_lisp_as_well_is_woken_by_facts_and_looked_at_after_steps() -> None:
-    text = """
-    (defvar *ready* nil)
-    (task-net
-      (by-fact (wait-until (or (at robot lab) *ready*)) (print :by-fact))
-      (by-lisp (wait-until (or (at cup lab) *ready*)) (print :by-lisp))
-      (world (sleep 1) (assert '(at robot lab)) (sleep 1) (setf *ready* t)))
-    """
-    assert lines_of(text) == [":BY-FACT", ":BY-LISP"]
-
-
-def test_parts_without_variables_are_asked_before_the_others() -> None:
-    text = """
-    (defvar *order* nil)
-    (defun ready () (push :ready *order*) t)
-    (defun note (x) (push x *order*) t)
-    (assert '(a 1))
-    (achieve (and (a ?x) (note ?x) (ready)))
-    (print (reverse *order*))
-    """
-    assert lines_of(text) == ["(:READY 1)"]
-
-
-# --- goals ---------------------------------------------------------------------------
-
-
-POWER = """
-(defproperty power-state)
-(to-achieve (power-state ?device ?state)
-  (t (print (list #?device #?state))
-     (assert '(power-state #?device #?state))))
-"""
-
-
-def test_a_goal_of_the_database_is_achieved_by_the_method_of_its_pattern() -> None:
-    text = f"""
-    {POWER}
-    (print (achieve (power-state camera :on)))
-    (print (achieve (power-state camera :on)))
-    (print (db-query '(power-state camera ?state)))
-    """
-    assert lines_of(text) == ["(CAMERA :ON)", "T", "NIL", "(((?STATE . :ON)))"]
-
-
-def test_a_goal_may_be_computed_or_hold_bindings() -> None:
-    text = f"""
-    {POWER}
-    (defun switch (device state) (achieve `(power-state ,device ,state)))
-    (switch 'camera :off)
-    (achieve '(power-state camera :off))
-    (assert '(is-a radio device))
-    (with-query-bindings '(is-a ?x device)
-      (achieve (power-state #?x :on)))
-    (print (db-query '(power-state ?x ?state)))
-    """
-    assert lines_of(text) == [
-        "(CAMERA :OFF)",
-        "(RADIO :ON)",
-        "(((?X . CAMERA) (?STATE . :OFF)) ((?X . RADIO) (?STATE . :ON)))",
-    ]
-
-
-def test_the_pattern_of_a_goal_reaches_into_terms() -> None:
-    text = """
-    (to-achieve (at robot (?room ?spot)) (t (assert '(at robot (#?room #?spot))) (print #?spot)))
-    (achieve (at robot (kitchen sink)))
-    (print (db-query '(at robot ?where)))
-    """
-    assert lines_of(text) == ["SINK", "(((?WHERE KITCHEN SINK)))"]
-
-
-def test_a_goal_that_its_method_does_not_bring_about_has_failed() -> None:
-    text = "(to-achieve (lit ?room) (t (print #?room))) (achieve (lit hall))"
-    assert came_to(text) == ":CONDITION-NOT-ACHIEVED (LIT HALL)"
-
-
-def test_a_test_of_a_method_may_ask_the_database() -> None:
-    text = """
-    (defrelation lit)
-    (to-achieve (lit ?room)
-      ((db-query '(window #?room)) (assert '(lit #?room)) (print (list :open-shutters #?room)))
-      ((db-query '(lamp #?room)) (assert '(lit #?room)) (print (list :switch-on #?room))))
-    (assert '(lamp cellar)) (assert '(window attic))
-    (achieve (lit cellar)) (achieve (lit attic))
-    (achieve (lit cave))
-    """
-    came = run(text)
-    assert came.output.split("\n")[1:] == ["(:SWITCH-ON CELLAR) ", "(:OPEN-SHUTTERS ATTIC) "]
-    assert failure_text(came.failure) == ":NO-APPLICABLE-METHOD (LIT CAVE)"
-
-
-def test_a_method_may_have_subgoals_and_alternatives_from_the_database() -> None:
-    """To light a room take a lamp that works: each is tried, and may have goals of its own."""
-    text = """
-    (defproperty power)
-    (to-achieve (power ?lamp :on)
-      ((db-query '(broken #?lamp)) (fail :lamp-broken))
-      (t (assert '(power #?lamp :on))))
-    (defrule (lit ?room) (lamp ?room ?lamp) (power ?lamp :on))
-    (to-achieve (lit ?room)
-      (t (with-query-bindings '(lamp #?room ?lamp)
-           (with-recovery-procedures (:lamp-broken (next-bindings))
-             (achieve (power #?lamp :on))
-             (print #?lamp)))))
-    (assert '(lamp hall l1)) (assert '(lamp hall l2)) (assert '(broken l1))
-    (print (achieve (lit hall)))
-    """
-    assert lines_of(text) == ["L2", "T"]
