@@ -82,6 +82,8 @@ class Knowledge:
 
         A row is a fact; if RELATION is told, its terms in a list or tuple, or its only term.
         """
+        if isinstance(rows, str):
+            raise TypeError("`add_all` takes many facts; for a single one there is `add`")
         found: int | None = self._change(add_rows, list(rows), relation)
         return found
 

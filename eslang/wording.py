@@ -38,7 +38,7 @@ class Wording:
     def form(self, first: Any, terms: Sequence[Any] = NO_TERMS) -> Value:
         """A fact, pattern or query: a whole one, or what it begins with and its TERMS."""
         if not terms:
-            if isinstance(first, str) and first.lstrip().startswith("("):
+            if isinstance(first, str) and first.__class__ is not Text and first.lstrip().startswith("("):
                 return self._read(first)
             if first.__class__ is Cons:
                 return first
@@ -99,7 +99,7 @@ class Wording:
                 return self._read(text)  # which tells the place, too
         text = text.strip()
         try:
-            [found] = self._readings(text)
+            [found] = self._readings(text) if not text.startswith("#:") else ()  # the same as nothing else
         except (EslError, ValueError):
             found = None
         if found is None or found.form.__class__ in (Cons, Vector) or not covers(found.span, text):

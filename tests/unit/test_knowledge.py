@@ -130,7 +130,7 @@ def test_facts_come_out_as_they_go_in(agent: Interpreter) -> None:
 
 
 def test_what_is_no_name_says_how_text_is_given(agent: Interpreter) -> None:
-    for text in ("Left arm", "", "O'Brien", "w1)", "(w1", "a;b", "#(1)", "'a"):
+    for text in ("Left arm", "", "O'Brien", "w1)", "(w1", "a;b", "#(1)", "'a", "#:a"):
         with pytest.raises(Failure, match="for text, write Text") as caught:
             agent.facts.add("name", "w1", text)
         assert caught.value.cause is Keyword("error"), text
@@ -155,7 +155,7 @@ def test_what_is_no_fact_fails_as_in_a_plan(agent: Interpreter) -> None:
     unbound = Keyword("unbound-logic-variable")
     assert cause_of(lambda: agent.facts.add("is-a", "?x", "widget")) is unbound
     assert cause_of(lambda: agent.facts.add("(is-a ?_ widget)")) is unbound
-    for wrong in (5, "and", [], ["?x", 1], Text("is-a"), [["is-a"], 1], ":is-a x"):
+    for wrong in (5, "and", [], ["?x", 1], Text("(is-a)"), [["is-a"], 1], ":is-a x"):
         assert cause_of(lambda wrong=wrong: agent.facts.add(wrong)) in (  # type: ignore[misc]
             Keyword("type-error"),
             Keyword("error"),
@@ -259,6 +259,11 @@ def test_an_error_of_the_iterable_is_its_own(agent: Interpreter) -> None:
     with pytest.raises(OSError, match="disk"):
         agent.facts.add_all(rows())
     assert len(agent.facts) == 0
+
+
+def test_a_text_is_not_taken_for_its_letters(agent: Interpreter) -> None:
+    with pytest.raises(TypeError, match="many facts"):
+        agent.facts.add_all("(is-a w1 widget)")
 
 
 def test_rows_are_one_change(agent: Interpreter) -> None:
