@@ -50,7 +50,8 @@ class Door(AtWork):
         if isinstance(error[1], Failure):
             leave(error[1])
         if self.keys is not None:
-            if "asyncio" in sys.modules and self.interpreter.runs.lives.tops:
+            runs = self.interpreter.runs
+            if "asyncio" in sys.modules and runs.lives.tops and runs.gate.is_here():
                 self.interpreter.outside.offer_turns()
             if self.keys.asked:
                 self.interpreter.ticks.take()  # it may have come too late for what ran

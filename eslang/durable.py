@@ -13,7 +13,7 @@ from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
 from eslang.base.hints import TYPE_CHECKING
 from eslang.base.symbols import Symbol
-from eslang.constructs.esl.fact_text import OTHER, Scanner, Writer, full_name, full_symbol, read_one
+from eslang.constructs.esl.fact_text import OTHER, USER, Scanner, UserNames, Writer, read_one
 from eslang.facts.journal import Journal
 from eslang.facts.query import Facts
 from eslang.facts.relations import Relation
@@ -33,7 +33,8 @@ class Durable(Journal):
         self.session = session
         self.file = StoreFile(path)
         self.closed = False
-        self._writer = Writer(full_name, f"kept in `{path}`")
+        self._names = UserNames(session.image.packages[USER])
+        self._writer = Writer(self._names.name_of, f"kept in `{path}`")
         self._last = 0  # the number of the fact that came last
         self._added: dict[int, tuple[Symbol, Row]] = {}  # since the last transaction
         self._removed: list[int] = []
@@ -41,12 +42,12 @@ class Durable(Journal):
 
     def load(self, facts: Facts) -> None:
         """Let FACTS be what the file holds. Raises Failure."""
-        scanner = Scanner(full_symbol)
+        scanner = Scanner(self._names.resolve)
         for number, text in self.file.facts():
             try:
                 fact = scanner.plain(text)
                 if fact is OTHER:
-                    fact = read_one(text, self.file.path, full_symbol)
+                    fact = read_one(text, self.file.path, self._names.resolve)
                 facts.restore(fact, number)
             except (Failure, EslError):
                 raise self.file.trouble(f"it is damaged: fact {number} is no fact: {text}") from None

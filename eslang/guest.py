@@ -103,7 +103,7 @@ class Guest:
         finally:
             scheduler.rest, scheduler.between, scheduler.is_open = before
             scheduler.calm_down()
-            runs.gate.open()
+            runs.leave()
             self._look_ahead()
 
     def _count(self) -> None:
@@ -168,7 +168,7 @@ class Guest:
         task = lives.create(name, body)
         task.is_root = task.seen = True
         task.on_end = settle
-        lives.start(task, "main")
+        runs.alone(lambda: lives.start(task, "main"))
         self.session.outside.rouse()
         await self._firmly(ended, task)
         return self._outcome(task, ended.result())
@@ -183,7 +183,7 @@ class Guest:
                 await shield(ended)
             except CancelledError as error:
                 leaving = leaving or error
-                self.scheduler.lives.abort(task, "caller")
+                self.session.runs.alone(lambda: self.scheduler.lives.abort(task, "caller"))
                 self.session.outside.rouse()
         if leaving is not None:
             try:
@@ -219,10 +219,8 @@ class Guest:
         await self._abort_all()
 
     async def _abort_all(self) -> None:
-        lives = self.scheduler.lives
-        for task in list(lives.tops):
-            lives.abort(task, "run")
-        await self._expect(lambda: not lives.tops)
+        self.session.runs.abort_tops()
+        await self._expect(lambda: not self.scheduler.lives.tops)
 
     async def _expect(self, done: Callable[[], bool]) -> None:
         """Wait until DONE is true after a batch. Raises Stop if the run was stopped."""

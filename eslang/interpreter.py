@@ -13,11 +13,10 @@ from eslang import library
 from eslang.base.border import to_lisp, to_python
 from eslang.base.calls import spread
 from eslang.base.control import Stop
-from eslang.base.decoding import decode, file_bytes
 from eslang.base.diagnostics import Diagnostic
 from eslang.base.failure import UNBOUND_VARIABLE, Failure
 from eslang.base.hints import TYPE_CHECKING, Any, Callable, F, Iterable, Iterator, overload
-from eslang.base.image import PACKAGE, Image
+from eslang.base.image import Image
 from eslang.base.many import values_list
 from eslang.base.packages import Package
 from eslang.base.printer import prin1
@@ -25,13 +24,11 @@ from eslang.base.resolve import resolve_in
 from eslang.base.running import running, to_function
 from eslang.base.spans import Source, Spans
 from eslang.base.symbols import Symbol, Value
-from eslang.base.text import String
 from eslang.base.words import SPECIAL_FORMS
 from eslang.compile.registry import Definition
 from eslang.compile.support import SUPPORT
 from eslang.doors import AtWork, Door
 from eslang.facts.unify import Patterns
-from eslang.lisp.loading import LOAD_PATHNAME
 from eslang.lisp.streams import OutputStream, standard_output
 from eslang.primitives import define_primitive, make_primitive
 from eslang.runtime import failures
@@ -50,6 +47,7 @@ if TYPE_CHECKING:
     from eslang.compile.toplevel import Compiler
     from eslang.constructs.esl.doubles import Double
     from eslang.facts.query import Facts
+    from eslang.knowledge import Knowledge
     from eslang.outside import Outside
     from eslang.reader.reader import Reading
 
@@ -68,6 +66,12 @@ class Interpreter:
     keeps the facts of the database; those in it are there from the start.
     """
 
+    closed = False
+    _chance: Random | None = None  # this and the following are made when first wanted
+    _outside: Outside | None = None
+    _database: Facts | None = None
+    _knowledge: Knowledge | None = None
+
     def __init__(
         self,
         *,
@@ -83,7 +87,6 @@ class Interpreter:
         self.image = Image()
         self.seed = seed
         self.clock = make_clock(clock)
-        self._chance: Random | None = None
         self.output = OutputStream(output) if output is not None else standard_output()
         self.bindings = Bindings(self.image)
         self.dynamic = Dynamic()  # of the task whose turn it is
@@ -94,9 +97,6 @@ class Interpreter:
         self.scheduler = self.runs.scheduler
         self.ticks = self.scheduler.ticks
         self.hooks = Hooks(self.clock.now, lambda: self.scheduler.current)
-        self.closed = False
-        self._outside: Outside | None = None
-        self._database: Facts | None = None
         self.touched = 0  # how often a plan read what may change by itself
         self._library = True  # what is defined now is the library's
         self.support = {**SUPPORT, **self.bindings.support(), **failures.SUPPORT, "%ticks": self.ticks}
@@ -181,22 +181,8 @@ class Interpreter:
     def load(self, path: str | PathLike[str]) -> Package:
         """Load a file; the package that was current at its end. Raises Failure, EslError, OSError."""
         with self.door():
-            package: Package = self.runs.enter(lambda: self.load_file(str(path), run_apart))
+            package: Package = self.runs.enter(lambda: self.texts.load_file(str(path), run_apart))
             return package
-
-    def load_file(self, path: str, run: Callable[[Any], Value]) -> Package:
-        """Load a file, its forms run by RUN; the package that was current at its end.
-
-        *PACKAGE* and *LOAD-PATHNAME* are as before afterwards.
-        """
-        source = decode(file_bytes(path), path)
-        self.bindings.bind(self.image.cell(PACKAGE), self.image.package)
-        self.bindings.bind(self.image.cell(LOAD_PATHNAME), String(path))
-        try:
-            self.texts.load(source, run)
-            return self.image.package
-        finally:
-            self.bindings.unbind(2)
 
     def eval(self, text: str, name: str = "<eval>") -> Any:
         """The value of the last form in TEXT, as Python has it. Raises Failure, EslError."""
@@ -349,6 +335,15 @@ class Interpreter:
 
             self._database = make_database(self)
         return self._database
+
+    @property
+    def facts(self) -> Knowledge:
+        """Its facts for Python code: add, remove, query, subscribe."""
+        if self._knowledge is None:
+            from eslang.knowledge import Knowledge
+
+            self._knowledge = Knowledge(self)
+        return self._knowledge
 
     # --- ends --------------------------------------------------------------------
 

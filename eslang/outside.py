@@ -334,9 +334,20 @@ class Outside:
             operation.work.join()
         self.left.clear()
         if self._runner is not None:
-            close, self._runner = self._runner.close, None
+            runner, self._runner = self._runner, None
             self.scheduler.between = None
-            close() if running_loop() is None else call_elsewhere(close)
+            if running_loop() is None:
+                end_loop(runner)
+            else:
+                call_elsewhere(lambda: end_loop(runner))
+
+
+def end_loop(runner: Runner) -> None:
+    """Close the loop of RUNNER; what should stop it, and came too late for that, is not to stop its end."""
+    loop = runner.get_loop()
+    loop.call_soon(loop.stop)
+    loop.run_forever()
+    runner.close()
 
 
 def is_call_off(error: BaseException) -> bool:

@@ -59,3 +59,21 @@ def post_call(session: Interpreter, function: Callable[[], object]) -> None:
         lives.start(task, "spawned")
 
     session.scheduler.post(begin)
+
+
+def post_later(session: Interpreter, seconds: float, function: Callable[[], object]) -> None:
+    """Call FUNCTION when SECONDS have passed, between two steps; if it fails, a task fails with it."""
+
+    def call() -> None:
+        try:
+            function()
+        except Exception as error:
+            failed = error  # the name of an `except` is gone afterwards
+            post_call(session, lambda: raise_again(failed))
+
+    session.scheduler.set_timer(seconds, lambda: session.scheduler.post(call))
+
+
+def raise_again(error: Exception) -> None:
+    """Raise ERROR."""
+    raise error

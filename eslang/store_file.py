@@ -25,6 +25,7 @@ WORDS = {  # of SQLite's errors
     "SQLITE_CORRUPT": "it is damaged",
     "SQLITE_READONLY": "it cannot be written",
     "SQLITE_FULL": "the disk is full",
+    "SQLITE_IOERR": "the disk does not do what it is asked to",
 }
 Stored = tuple[int, str]  # the number of a fact, and its text
 LEFT: list[Any] = []  # connections that a process has got from its parent, and may not even close

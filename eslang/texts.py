@@ -11,10 +11,15 @@ import os
 from types import FunctionType
 
 from eslang.base.decoding import decode, file_bytes
-from eslang.base.hints import Any, Callable
+from eslang.base.diagnostics import Diagnostic, EslError
+from eslang.base.hints import Any, Callable, Iterable
+from eslang.base.image import PACKAGE
+from eslang.base.packages import Package
 from eslang.base.spans import Source
 from eslang.base.symbols import Value
+from eslang.base.text import String
 from eslang.compile import cache
+from eslang.lisp.loading import LOAD_PATHNAME
 from eslang.runtime.failures import run_apart
 
 Run = Callable[[FunctionType], Value]
@@ -49,6 +54,22 @@ class Texts:
         if written is not None:
             cache.keep(key, [written])
 
+    def load_file(self, path: str, run: Run) -> Package:
+        """Load a file, its forms run by RUN; the package that was current at its end.
+
+        *PACKAGE* and *LOAD-PATHNAME* are as before afterwards.
+        """
+        image, bindings = self.session.image, self.session.bindings
+        source = decode(file_bytes(path), path)
+        bindings.bind(image.cell(PACKAGE), image.package)
+        bindings.bind(image.cell(LOAD_PATHNAME), String(path))
+        try:
+            self.load(source, run)
+            package: Package = image.package
+            return package
+        finally:
+            bindings.unbind(2)
+
     def load_library(self, paths: list[str]) -> None:
         """Load the library, all of it or none from the cache."""
         stats = [(path, os.stat(path)) for path in paths]
@@ -63,6 +84,26 @@ class Texts:
             entries.append(cache.write_down(compiler))
         if all(entry is not None for entry in entries):
             cache.keep(key, [entry for entry in entries if entry is not None])
+
+    def check(self, paths: Iterable[str]) -> list[Diagnostic]:
+        """What can be known of a program, the files in order, without running it."""
+        from eslang.compile.check import Checker
+        from eslang.constructs.esl.relation_check import RelationCheck
+
+        session = self.session
+        session.compiler("<check>")
+        package = session.image.cell(PACKAGE)
+        checker = Checker(session.image, lambda unit, code: run_apart(unit.load(code)), RelationCheck)
+        for path in paths:
+            try:
+                source = decode(file_bytes(path), path)
+            except EslError as error:
+                checker.found.append(error.diagnostic)
+                continue
+            before = package.value
+            checker.text(session.readings(source), session.compiler(source.name))
+            package.value = before
+        return checker.finish()
 
     def _compile(self, source: Source, run: Run = run_apart) -> tuple[Any, Value]:
         """Compile and run a source form by form; its compiler, and the value of the last form."""

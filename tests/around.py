@@ -57,3 +57,31 @@ def functions_in(error: BaseException | None) -> list[str]:
     """The functions that the traceback of ERROR passes."""
     assert error is not None
     return [frame.name for frame in traceback.extract_tb(error.__traceback__)]
+
+
+class Worker(threading.Thread):
+    """A thread that does some work at once; what came of it is `found`."""
+
+    def __init__(self, work: Callable[[], Any]) -> None:
+        super().__init__()
+        self.work = work
+        self.found: Any = None
+        self.start()
+
+    def run(self) -> None:
+        """Do it."""
+        try:
+            self.found = self.work()
+        except Exception as error:
+            self.found = error
+
+    def end(self) -> Any:
+        """What came of it."""
+        self.join(20)
+        assert not self.is_alive()
+        return self.found
+
+
+def in_thread(work: Callable[[], Any]) -> Any:
+    """What WORK gives, or raises, in another thread."""
+    return Worker(work).end()

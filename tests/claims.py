@@ -12,13 +12,15 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
 CONFORMANCE = ROOT / "tests" / "conformance"
-FIRST_LINES = re.compile(r"^;+ claim ([A-Z]+-[\w.-]+)(?:: (.*))?$", re.M)
+FIRST_LINES = re.compile(r"^(?:;+|#) claim ([A-Z]+-[\w.-]+)(?:: (.*))?$", re.M)
 
 INTRODUCTION = """\
 # Conformance: the papers' sentences and the tests that show them
 
-This page is made from `tests/conformance/claims.toml`, the files beside it, and the transcripts.
+This page is made from `tests/conformance/claims.toml`, the files beside it, the transcripts,
+and some tests in Python.
 ESL is [Gat 1996]; ARM is [Gat and Pell 1998].
+LR is the language reference, where it decides what the papers leave open.
 A sentence is quoted as printed, hyphenation undone.
 Where the second paper prints a sentence of the first again, its row points there.
 """
@@ -42,6 +44,7 @@ def load_claims() -> list[Claim]:
 def shown_claims() -> dict[str, list[str]]:
     """The files that show claims, each with their ids; every conformance file is among them."""
     files = [*CONFORMANCE.rglob("*.esl"), *(ROOT / "tests" / "transcripts").glob("*.transcript")]
+    files += (ROOT / "tests" / "unit" / "constructs").rglob("*.py")
     found = {}
     for path in sorted(files):
         ids = [name for name, _ in FIRST_LINES.findall(path.read_text(encoding="utf-8"))]

@@ -15,17 +15,26 @@ from eslang.base.symbols import T, Value
 from eslang.base.text import String
 
 
-def to_python(value: Value) -> Any:
-    """VALUE for Python code; a dotted or circular list stays as it is."""
+class Text(str):
+    """A string, where a plain str is a name: in facts and queries. It is a str in all else."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return f"Text({str.__repr__(self)})"
+
+
+def to_python(value: Value, text: type[str] = str) -> Any:
+    """VALUE for Python code, strings as TEXT; a dotted or circular list stays as it is."""
     kind = value.__class__
     if kind is String:
-        return value.text
+        return text(value.text)
     if value is T:
         return True
     if kind is Cons:
-        return _python_list(value)
+        return _python_list(value, text)
     if kind is Values:
-        return to_python(primary(value))
+        return to_python(primary(value), text)
     if kind.__name__ == "Ratio":
         from fractions import Fraction
 
@@ -33,7 +42,7 @@ def to_python(value: Value) -> Any:
     return value
 
 
-def _python_list(lst: Cons) -> Any:
+def _python_list(lst: Cons, text: type[str]) -> Any:
     """A list as a Python list, built without recursion along the cdr."""
     elements: list[Value] = []
     seen: set[int] = set()
@@ -44,7 +53,7 @@ def _python_list(lst: Cons) -> Any:
         seen.add(id(rest))
         elements.append(rest.car)
         rest = rest.cdr
-    return lst if rest is not None else [to_python(element) for element in elements]
+    return lst if rest is not None else [to_python(element, text) for element in elements]
 
 
 def leave(failure: Failure) -> None:
@@ -76,5 +85,5 @@ def to_lisp(value: Any) -> Value:
 
         return canonical(value)
     if kind is not int and kind is not float and isinstance(value, str):
-        return String(str(value))
+        return String(str.__str__(value))
     return value

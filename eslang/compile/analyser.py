@@ -51,6 +51,7 @@ class Use(NamedTuple):
     form: Value
     scope: Scope
     within: str | None  # the definition around it
+    supposed: tuple[Symbol, ...] = ()  # it is only come to where these name functions
 
 
 class Analyser:
@@ -75,6 +76,7 @@ class Analyser:
         self.expanding = 0  # how many macros are being expanded inside one another
         self.definition: str | None = None  # the definition around the form, for `= in`
         self.uses = uses
+        self.supposed: tuple[Symbol, ...] = ()  # names that are functions where the form at hand is come to
         self.notices = notices
         self.expanders = expanders if expanders is not None else []  # of the macros met on the way
 
@@ -233,7 +235,9 @@ class Analyser:
         """Note that the program mentions a global name."""
         if self.uses is not None:
             span = self.spans.element(form) if form.__class__ is Cons and form.car is symbol else None
-            self.uses.append(Use(kind, symbol, arguments, span or self.span, form, scope, self.definition))
+            place = span or self.span
+            use = Use(kind, symbol, arguments, place, form, scope, self.definition, self.supposed)
+            self.uses.append(use)
 
     # --- mistakes --------------------------------------------------------------
 

@@ -42,16 +42,40 @@ DEFINITIONS = frozenset(
         "USE-PACKAGE",
         "SHADOW",
         "SHADOWING-IMPORT",
+        "DEFRELATION",
+        "DEFPROPERTY",
+        "DEFRULE",
     ]
 )
+
+
+class Judge:
+    """What is known of a program from all its uses of global names, if some of it could be analysed."""
+
+    def __init__(self, image: Image, uses: list[Use], is_whole: bool) -> None:
+        self.image = image
+        self.uses = uses
+        self.is_whole = is_whole  # all of it could
+
+    def is_called(self, operator: Symbol) -> bool:
+        """Whether a form that is a call or something else is a call, with OPERATOR."""
+        return hasattr(self.image.cell(operator), "function")
+
+    def verdicts(self) -> Iterable[Diagnostic]:
+        """What else is wrong with the program."""
+        return ()
 
 
 class Checker:
     """Checks one program, of one text or more."""
 
-    def __init__(self, image: Image, run: Callable[[Any, CodeType], Value]) -> None:
+    def __init__(
+        self, image: Image, run: Callable[[Any, CodeType], Value], judge: Callable[..., Judge] = Judge
+    ) -> None:
         self.image = image
         self.run = run  # runs code of a unit
+        self.make_judge = judge
+        self.is_whole = True  # all of the program could be analysed
         self.found: list[Diagnostic] = []
         self.uses: list[Use] = []
         self.assigned: set[Symbol] = set()
@@ -65,6 +89,7 @@ class Checker:
                 self.form(compiler, reading.form, reading.spans, reading.span)
         except EslError as error:
             self.found.append(error.diagnostic)
+            self.is_whole = False
 
     def form(self, compiler: Compiler, form: Value, spans: Spans, span: Span | None) -> None:
         """Check one top-level form; what is wrong with it does not keep the next from being checked."""
@@ -80,16 +105,19 @@ class Checker:
             if not _is_for_want_of_a_value(error):
                 self.found.append(error.diagnostic)
             del self.uses[before:]
+            self.is_whole = False
         except Failure:
             pass  # a definition that cannot be made without running the program
 
     def finish(self) -> list[Diagnostic]:
         """All that was found, in the order of the text."""
         self.assigned = {use.symbol for use in self.uses if use.kind == "assignment"}
+        judge = self.make_judge(self.image, self.uses, self.is_whole)
         for use in self.uses:
-            diagnostic = self.judge(use)
+            diagnostic = self.judge(use) if all(map(judge.is_called, use.supposed)) else None
             if diagnostic is not None:
                 self.found.append(diagnostic)
+        self.found += judge.verdicts()
         return sorted(dict.fromkeys(self.found), key=_place)
 
     def judge(self, use: Use) -> Diagnostic | None:

@@ -51,6 +51,16 @@ def progn(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     return analyser.body(form.cdr, scope)
 
 
+@special_form("(%where-function operator form)")
+def where_function(analyser: Analyser, form: Cons, scope: Scope) -> Node:
+    """Run FORM, which is only come to where OPERATOR names a function: a check is to know that."""
+    around, analyser.supposed = analyser.supposed, (*analyser.supposed, form.cdr.car)
+    try:
+        return analyser.node(form.cdr.cdr.car, scope)
+    finally:
+        analyser.supposed = around
+
+
 @special_form("(if test then &optional else)")
 def if_(analyser: Analyser, form: Cons, scope: Scope) -> Node:
     """Run THEN if TEST is true, else ELSE."""

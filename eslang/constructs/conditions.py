@@ -21,6 +21,7 @@ AND, OR, NOT, IF, QUOTE, LIST, PROGN, LAMBDA, FUNCALL, QUASIQUOTE = (
     Symbol.intern(name, CL)
     for name in ("AND", "OR", "NOT", "IF", "QUOTE", "LIST", "PROGN", "LAMBDA", "FUNCALL", "QUASIQUOTE")
 )
+WHERE_FUNCTION = Symbol.intern("%WHERE-FUNCTION", CL)
 CALLS, HOLDS, ASKS_LISP = (Symbol.intern(name, ESL) for name in ("%CALLS-P", "%HOLDS-P", "%ASKS-LISP"))
 CONNECTIVES = (AND, OR, NOT)
 
@@ -47,7 +48,7 @@ def test_form(condition: Value, environment: Any) -> Value:
     call = lisp_list(PROGN, lisp_list(ASKS_LISP), condition)
     if is_operator(operator, environment):
         return call
-    return lisp_list(IF, calls_form(operator), call, lisp_list(HOLDS, term_form(condition)))
+    return if_called(operator, call, lisp_list(HOLDS, term_form(condition)))
 
 
 def query_form(condition: Value, environment: Any) -> Value:
@@ -64,7 +65,7 @@ def query_form(condition: Value, environment: Any) -> Value:
         return test_query_form(condition)
     if all(map(is_constant, items(condition.cdr))):
         return lisp_list(QUOTE, condition)
-    return lisp_list(IF, calls_form(operator), test_query_form(condition), term_form(condition))
+    return if_called(operator, test_query_form(condition), term_form(condition))
 
 
 def test_query_form(form: Value) -> Value:
@@ -88,7 +89,7 @@ def instance_form(condition: Value, environment: Any) -> Value:
     if is_operator(condition.car, environment) or has_variables(condition):
         return term_form(condition)
     computed = Cons(LIST, Cons(operator, condition.cdr))
-    return lisp_list(IF, calls_form(condition.car), computed, term_form(condition))
+    return if_called(condition.car, computed, term_form(condition))
 
 
 def is_compound(condition: Value) -> bool:
@@ -116,9 +117,10 @@ def is_constant(term: Value) -> bool:
     return (term.__class__ is not Cons and term.__class__ is not Symbol) or is_variable(term)
 
 
-def calls_form(operator: Symbol) -> Value:
-    """A form that tells whether a condition with OPERATOR is a call."""
-    return lisp_list(CALLS, lisp_list(QUOTE, operator))
+def if_called(operator: Symbol, call: Value, query: Value) -> Value:
+    """A form that is CALL if a condition with OPERATOR is one, and else QUERY."""
+    test = lisp_list(CALLS, lisp_list(QUOTE, operator))
+    return lisp_list(IF, test, lisp_list(WHERE_FUNCTION, operator, call), query)
 
 
 def term_form(term: Value) -> Value:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from eslang.base.control import NextBindings
 from eslang.base.failure import Failure, control_error, unbound_variable
-from eslang.base.hints import TYPE_CHECKING, Any, Iterator
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterator
 from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.many import many_of
 from eslang.base.running import running
@@ -203,9 +203,17 @@ def mentions_binding(term: Value) -> bool:
     return False
 
 
-def _in_force(term: Value) -> Value:
+def as_bound(term: Value) -> Value:
+    """TERM for people: with the values of those #?x in it that are bound."""
+    bindings = running.session.dynamic.logical.bindings
+    if not bindings or not mentions_binding(term):
+        return term
+    return _in_force(term, lambda name: bindings.get(name, lisp_list(LOGICAL_BINDING, name)))
+
+
+def _in_force(term: Value, value_of: Callable[[Symbol], Value] = value_of_binding) -> Value:
     if term.__class__ is not Cons:
         return term
     if term.car is LOGICAL_BINDING and term.cdr.__class__ is Cons and is_variable(term.cdr.car):
-        return value_of_binding(term.cdr.car)
-    return Cons(_in_force(term.car), _in_force(term.cdr))
+        return value_of(term.cdr.car)
+    return Cons(_in_force(term.car, value_of), _in_force(term.cdr, value_of))

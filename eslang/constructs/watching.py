@@ -11,6 +11,7 @@ from eslang.base.hints import TYPE_CHECKING, Any, Callable
 from eslang.base.lists import from_items
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value
+from eslang.constructs.esl.queries import as_bound
 from eslang.runtime.events import Wait
 from eslang.runtime.polls import CONDITION
 
@@ -56,7 +57,7 @@ class Look:
     def __init__(self, condition: Value, test: Callable[[], Value]) -> None:
         self.test = test
         self.scheduler = running.session.scheduler
-        self.waiting = Wait(self.scheduler.at_work(), CONDITION, condition, (), self.holds)
+        self.waiting = Wait(self.scheduler.at_work(), CONDITION, as_bound(condition), (), self.holds)
         self.inquiry = Inquiry(self.stir)
         self.told: Any = None  # what was told of what it reads
 

@@ -61,6 +61,7 @@ class Atom(NamedTuple):
 
     name: Symbol
     terms: tuple[Term, ...]
+    is_direct: bool = False  # what transitive rules derive is not asked for (transitive.py)
 
 
 class Both(NamedTuple):
@@ -174,7 +175,7 @@ def variable_in(code: Code) -> Symbol | None:
     """The first logic variable in what CODE stands for."""
     for token in code if code.__class__ is tuple else (code,):
         if token.__class__ is Symbol and is_variable(token):
-            return token  # type: ignore[no-any-return]
+            return token
     return None
 
 

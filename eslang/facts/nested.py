@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from eslang.base.hints import Callable, NamedTuple
+from eslang.base.hints import Callable, NamedTuple, Sequence
 from eslang.base.lists import Cons
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.text import String
 from eslang.facts.goals import ANYTHING, Constant, Nested, Term
-from eslang.facts.terms import Code, code_of, value_of
+from eslang.facts.terms import Code, Row, code_of, value_of
 from eslang.facts.unify import is_variable
 
 Leaf = Symbol | Constant
@@ -78,28 +78,42 @@ def builder(term: Nested) -> Callable[..., Code]:
     return build
 
 
-def matcher(term: Nested, known: list[Leaf], wanted: list[Symbol]) -> Callable[..., tuple[Code, ...] | None]:
-    """What takes a code apart as TERM says, given codes for KNOWN leaves: the codes of what is WANTED."""
+Match = Callable[..., tuple[Code, ...] | None]
 
-    def match(code: Code, *codes: Code) -> tuple[Code, ...] | None:
+
+def matcher(terms: Sequence[Term], known: Sequence[Leaf], wanted: Sequence[Symbol]) -> Match:
+    """What takes a row apart as TERMS say, given codes for KNOWN leaves: the codes of what is WANTED."""
+
+    def match(row: Row, *codes: Code) -> tuple[Code, ...] | None:
         found: dict[Leaf, Code] = dict(zip(known, codes, strict=True))
-        pending: list[tuple[Term | None, Value]] = [(term, value_of(code))]
+        pending: list[tuple[Nested, Value]] = []
+        for term, code in zip(terms, row, strict=True):
+            if isinstance(term, Nested):
+                pending.append((term, value_of(code)))
+            elif not agrees(found, term, code):
+                return None
         while pending:
-            part, value = pending.pop()
-            if isinstance(part, Nested):
-                for each in part.parts:
-                    if value.__class__ is not Cons:
-                        return None
-                    pending.append((each, value.car))
-                    value = value.cdr
-                pending.append((part.tail, value))
-            elif part is None:
-                if value is not None:
+            nested, value = pending.pop()
+            for part in nested.parts:
+                if value.__class__ is not Cons or not meets(part, value.car, found, pending):
                     return None
-            elif not (isinstance(part, Symbol) and part.name == ANYTHING):
-                seen = code_of(value)
-                if found.setdefault(part, seen) != seen:
-                    return None
+                value = value.cdr
+            if not (value is None if nested.tail is None else meets(nested.tail, value, found, pending)):
+                return None
         return tuple([found[variable] for variable in wanted])
 
     return match
+
+
+def meets(part: Term, value: Value, found: dict[Leaf, Code], pending: list[tuple[Nested, Value]]) -> bool:
+    """Whether PART may be VALUE, as far as can be said before what is PENDING."""
+    if isinstance(part, Nested):
+        pending.append((part, value))
+        return True
+    return agrees(found, part, code_of(value))
+
+
+def agrees(found: dict[Leaf, Code], leaf: Leaf, code: Code) -> bool:
+    """Whether LEAF stands for CODE by what was FOUND; if nothing was, it does from now on."""
+    is_anything = isinstance(leaf, Symbol) and leaf.name == ANYTHING
+    return is_anything or bool(found.setdefault(leaf, code) == code)

@@ -16,6 +16,7 @@ from eslang.facts.goals import Atom, Constant, Constants, Nested, Shape, unbound
 from eslang.facts.relations import Positions, Relation
 from eslang.facts.rules import Name, Rule
 from eslang.facts.steps import Absent, Arranger, Bound, Branch, Look, Present, Steps, Test, is_known
+from eslang.facts.transitive import ends_of, walking
 
 UNBOUNDED = Keyword("UNBOUNDED-RULES")
 
@@ -73,7 +74,7 @@ class Planner:
         self.resolve = resolve
         self.rules_of = rules_of
         self.constants = list(constants)  # the query's, and then those of the rules
-        self.procs: dict[tuple[Relation, Positions], Proc] = {}
+        self.procs: dict[tuple[Relation, Positions, bool], Proc] = {}
         self.tests: dict[Symbol, None] = {}  # what of Lisp is asked
 
     def plan(self, shape: Shape) -> Steps:
@@ -82,14 +83,14 @@ class Planner:
         self._find_circles()
         return steps
 
-    def proc(self, relation: Relation, positions: Positions) -> Proc | None:
-        """The proc for RELATION at POSITIONS; None if it has no rules."""
-        rules = self.rules_of((relation.name, relation.arity))
+    def proc(self, relation: Relation, positions: Positions, is_direct: bool = False) -> Proc | None:
+        """The proc for RELATION at POSITIONS; None if no rules are to be asked."""
+        rules = self._rules(relation, positions, is_direct)
         if not rules:
             return None
-        proc = self.procs.get((relation, positions))
+        proc = self.procs.get((relation, positions, is_direct))
         if proc is None:
-            proc = self.procs[relation, positions] = Proc(len(self.procs), relation, positions)
+            proc = self.procs[relation, positions, is_direct] = Proc(len(self.procs), relation, positions)
             try:
                 proc.clauses = [self._clause(rule, positions) for rule in rules]
             except Failure as failure:
@@ -97,6 +98,16 @@ class Planner:
         if proc.failure is not None:
             raise proc.failure
         return proc
+
+    def _rules(self, relation: Relation, positions: Positions, is_direct: bool) -> list[Rule]:
+        """The rules of RELATION, a transitive one as it is walked, or without it."""
+        rules = self.rules_of((relation.name, relation.arity))
+        for number, rule in enumerate(rules):
+            ends = ends_of(rule)
+            if ends is not None:
+                walked = [] if is_direct else [walking(rule, ends, positions)]
+                return [*rules[:number], *walked, *rules[number + 1 :]]
+        return rules
 
     def _arranger(self, about: Relation | None = None) -> Arranger:
         return Arranger(self.resolve, self.proc, self.constants, about)
@@ -216,7 +227,7 @@ def _always_bound(steps: Steps, bound: Bound) -> Bound:
 
 def _shifted(part: Any, offset: int) -> Any:
     """PART, with its constants counted from OFFSET."""
-    if part is None or isinstance(part, Symbol):
+    if part is None or isinstance(part, Symbol | bool):
         return part
     if isinstance(part, Constant):
         return Constant(part.number + offset)

@@ -51,9 +51,7 @@ class Facts(Store):
 
     def is_relation(self, name: Symbol) -> bool:
         """Whether NAME was declared, or has rules, or has or had facts."""
-        return (
-            name in self.known or name in self.declared or any(each[0] is name for each in self.rules.by_name)
-        )
+        return name in self.known or name in self.declared or name in self.rules.arities
 
     def is_test(self, name: Symbol) -> bool:
         """Whether NAME in a query is a call of Lisp."""
@@ -157,5 +155,5 @@ class Facts(Store):
         """Forget the plans, and wake who asked these relations."""
         self._forget_plans()
         woken = dict.fromkeys(watch for name in names for watch in woken_by_rules(self.relation(*name)))
-        for watch in woken:
-            watch.callback(None)
+        self._calls += [(watch.wake, None) for watch in woken]
+        self._deliver()

@@ -31,6 +31,13 @@ UNSTRATIFIED = Keyword("UNSTRATIFIED-RULES")
 Name = tuple[Symbol, int]  # of a relation: with its arity
 
 
+class Need(NamedTuple):
+    """What a rule asks for: a relation, unless Lisp is asked; and whether under NOT."""
+
+    name: Name
+    negated: bool
+
+
 class Rule(NamedTuple):
     """HEAD follows from BODY."""
 
@@ -38,18 +45,12 @@ class Rule(NamedTuple):
     head: Atom
     body: Both
     constants: Constants
+    needs: tuple[Need, ...]
 
     @property
     def name(self) -> Name:
         """The relation that this derives facts of."""
         return self.head.name, len(self.head.terms)
-
-
-class Uses(NamedTuple):
-    """One relation is derived from another."""
-
-    name: Name
-    negated: bool
 
 
 class Rules:
@@ -58,6 +59,7 @@ class Rules:
     def __init__(self, is_test: Callable[[Symbol], bool]) -> None:
         self.is_test = is_test  # whether a name is Lisp's
         self.by_name: dict[Name, list[Rule]] = {}
+        self.arities: dict[Symbol, list[int]] = {}  # of what is derived
 
     def define(self, head: Value, body: Value) -> Rule | None:
         """Take the rule that HEAD follows from the goals in the list BODY; None if it is there already."""
@@ -65,43 +67,54 @@ class Rules:
         known = self.by_name.get(rule.name, [])
         if any(is_same_pattern(rule.form, other.form) for other in known):
             return None
-        self.by_name[rule.name] = [*known, rule]
-        try:
-            self._check(rule)
-        except Failure:
-            self._restore(rule.name, known)
-            raise
+        self._hold(rule.name, [*known, rule])
+        circle = self._circle(rule.name)
+        if circle is not None:
+            self._hold(rule.name, known)
+            raise Failure(UNSTRATIFIED, from_items([name for name, _ in circle]), rule.form)
         return rule
 
     def forget(self, name: Symbol) -> list[Name]:
         """Take back the rules of all relations called NAME; which ones had some."""
-        found = [each for each in self.by_name if each[0] is name]
+        found = [(name, arity) for arity in self.arities.get(name, ())]
         for each in found:
-            del self.by_name[each]
+            self._hold(each, [])
         return found
 
-    def _restore(self, name: Name, rules: list[Rule]) -> None:
-        if rules:
-            self.by_name[name] = rules
-        else:
+    def _hold(self, name: Name, rules: list[Rule]) -> None:
+        """Let RULES be all that derive NAME."""
+        symbol, arity = name
+        arities = self.arities.setdefault(symbol, [])
+        if arity not in arities:
+            arities.append(arity)
+        self.by_name[name] = rules
+        if not rules:
             del self.by_name[name]
+            arities.remove(arity)
+        if not arities:
+            del self.arities[symbol]
 
-    def _check(self, rule: Rule) -> None:
-        """Fail if RULE closes a circle through NOT."""
-        uses = {
-            name: [use for each in rules for use in self._uses(each)] for name, rules in self.by_name.items()
-        }
-        for name, found in uses.items():
-            for use in found:
-                path = _path(uses, use.name, name) if use.negated else None
-                if path is not None:
-                    raise Failure(UNSTRATIFIED, from_items([each for each, _ in (name, *path)]), rule.form)
-
-    def _uses(self, rule: Rule) -> Iterator[Uses]:
-        """The relations that RULE needs."""
-        for atom, negated in _atoms(rule.body, False):
-            if not self.is_test(atom.name):
-                yield Uses((atom.name, len(atom.terms)), negated)
+    def _circle(self, start: Name) -> list[Name] | None:
+        """The shortest circle in which START needs its own negation, from a NOT on; None if there is none."""
+        first = Need(start, False)
+        before: dict[Need, Need] = {}  # how one came there; NEGATED where that was through NOT
+        pending = [first]
+        for need in pending:
+            for rule in self.by_name.get(need.name, ()):
+                for name, negated in rule.needs:
+                    following = Need(name, negated or need.negated)
+                    if following not in before and not self.is_test(name[0]):
+                        before[following] = need
+                        pending.append(following)
+        last = Need(start, True)
+        if last not in before:
+            return None
+        path = [before[last]]
+        while path[-1] != first:
+            path.append(before[path[-1]])
+        names = [name for name, _ in path[::-1]]
+        turn = sum(not negated for _, negated in path) - 1
+        return [*names[turn:], *names[: turn + 1]]
 
 
 def read_rule(head: Value, body: Value) -> Rule:
@@ -113,33 +126,18 @@ def read_rule(head: Value, body: Value) -> Rule:
     tokens, constants = read_query(Cons(AND, Cons(head, body)))
     goal = shape_of(tokens).goal
     assert isinstance(goal, Both) and isinstance(goal.goals[0], Atom)
-    return Rule(Cons(head, body), goal.goals[0], Both(goal.goals[1:]), constants)
+    parts = Both(goal.goals[1:])
+    needs = dict.fromkeys(_needs(parts, False))
+    return Rule(Cons(head, body), goal.goals[0], parts, constants, tuple(needs))
 
 
-def _atoms(goal: Goal, negated: bool) -> Iterator[tuple[Atom, bool]]:
-    """The atoms in GOAL, and whether they stand under NOT."""
+def _needs(goal: Goal, negated: bool) -> Iterator[Need]:
+    """What GOAL asks for."""
     if isinstance(goal, Atom):
-        yield goal, negated
+        yield Need((goal.name, len(goal.terms)), negated)
     elif isinstance(goal, Never):
-        yield from _atoms(goal.goal, True)
+        yield from _needs(goal.goal, True)
     else:
         assert isinstance(goal, Both | Either)
         for each in goal.goals:
-            yield from _atoms(each, negated)
-
-
-def _path(uses: dict[Name, list[Uses]], start: Name, end: Name) -> list[Name] | None:
-    """How START comes to need END: the shortest way, both included; None if it does not."""
-    before: dict[Name, Name | None] = {start: None}
-    pending = [start]
-    for name in pending:
-        if name == end:
-            path = [name]
-            while (earlier := before[path[-1]]) is not None:
-                path.append(earlier)
-            return path[::-1]
-        for use in uses.get(name, ()):
-            if use.name not in before:
-                before[use.name] = name
-                pending.append(use.name)
-    return None
+            yield from _needs(each, negated)

@@ -193,19 +193,21 @@ class Body:
         if claims:
             self.line(depth, f"if {' and '.join(claims)}:")
             depth += 1
-        for term, expression in places:
-            if isinstance(term, Nested):
-                scope = self._take_apart(term, expression, scope, depth)
-                depth += 1
+        nested = [place for place in places if isinstance(place[0], Nested)]
+        if nested:
+            scope = self._take_apart(nested, scope, depth)
+            depth += 1
         return scope, depth
 
-    def _take_apart(self, term: Nested, expression: str, scope: Scope, depth: int) -> Scope:
-        """Bind what stands in a nested term; an `if` is left open."""
-        leaves = leaves_of(term)
+    def _take_apart(self, places: list[tuple[Term, str]], scope: Scope, depth: int) -> Scope:
+        """Bind what stands in nested terms; an `if` is left open."""
+        terms = tuple(term for term, _ in places)
+        leaves = leaves_of(Nested(terms, None))
         known: list[Leaf] = [leaf for leaf in leaves if isinstance(leaf, Constant) or leaf in scope]
         wanted = [leaf for leaf in leaves if isinstance(leaf, Symbol) and leaf not in scope]
-        given = ", ".join([expression, *(self.expression(leaf, scope) for leaf in known)])
-        match = self.source.object(matcher(term, known, wanted))
+        row = tuple_of([expression for _, expression in places])
+        given = ", ".join([row, *(self.expression(leaf, scope) for leaf in known)])
+        match = self.source.object(matcher(terms, known, wanted))
         found = self.source.fresh("m")
         self.line(depth, f"{found} = {match}({given})")
         self.line(depth, f"if {found} is not None:")

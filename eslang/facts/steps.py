@@ -80,13 +80,13 @@ class Arranger:
     def __init__(
         self,
         resolve: Callable[[Atom], Relation | None],
-        rules: Callable[[Relation, Positions], Any],
+        rules: Callable[[Relation, Positions, bool], Any],
         constants: Constants,
         about: Relation | None = None,
     ) -> None:
         self.about = about  # what the rule derives, if these are the goals of a rule
         self.resolve = resolve  # the relation that an atom is about; None: it is a test
-        self.rules = rules  # the proc for a relation and positions, or None; fails where the rules cannot run
+        self.rules = rules  # what answers by rules, or None (procs.py); fails where they cannot run
         self.constants = constants
 
     def arrange(self, goals: tuple[Goal, ...], bound: Bound) -> Steps:
@@ -115,7 +115,7 @@ class Arranger:
         relation = self.resolve(goal)
         if relation is None:
             return Test(goal)
-        proc = self.rules(relation, asked_positions(goal, bound))
+        proc = self.rules(relation, asked_positions(goal, bound), goal.is_direct)
         return Look(goal, relation, known_positions(goal, bound) if proc is None else proc.positions, proc)
 
     def _next(self, left: list[Goal], bound: Bound) -> int:
@@ -144,7 +144,7 @@ class Arranger:
             relation = self.resolve(goal) if isinstance(goal, Atom) else None
             if relation is not None:
                 assert isinstance(goal, Atom)
-                self.rules(relation, asked_positions(goal, bound))
+                self.rules(relation, asked_positions(goal, bound), goal.is_direct)
                 return None
         except Failure as failure:
             return failure
@@ -178,7 +178,8 @@ class Arranger:
     def _asks_rules(self, goal: Goal) -> bool:
         if isinstance(goal, Atom):
             relation = self.resolve(goal)
-            return relation is not None and self.rules(relation, tuple(range(relation.arity))) is not None
+            everything = tuple(range(len(goal.terms)))
+            return relation is not None and self.rules(relation, everything, goal.is_direct) is not None
         inner = (goal.goal,) if isinstance(goal, Never) else goal.goals
         return any(self._asks_rules(each) for each in inner)
 

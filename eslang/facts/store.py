@@ -9,7 +9,7 @@ those who watch are woken, once.
 from __future__ import annotations
 
 from eslang.base.failure import type_error
-from eslang.base.hints import Callable, Iterable, Iterator, Sequence
+from eslang.base.hints import Any, Callable, Iterable, Iterator, Sequence
 from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import (
@@ -48,7 +48,8 @@ class Store:
         self.tell: Subscriber = lambda change: None
         self.journal: Journal | None = None
         self._patterns: dict[Tokens | None, Pattern] = {}  # that were asked for by RETRACT and UPDATE
-        self._changes: list[tuple[Relation, Change]] = []  # made, and not told yet
+        self._changes: list[tuple[Relation, Change]] = []  # parts of a change that is not whole yet
+        self._calls: list[tuple[Callable[[Any], object], Change | None]] = []  # that are due
         self._telling = False
 
     def relation(self, name: Symbol, arity: int) -> Relation:
@@ -153,13 +154,12 @@ class Store:
         """Let FACT take the place of all facts that match PATTERN; false if nothing changed by that."""
         relation, row = self.check(fact)
         old, rows = self.matching(pattern)
-        for each in rows:
-            if old is not relation or each != row:
-                self._remove(old, each)
-        self._add(relation, row)
-        changed = bool(self._changes)
+        gone = [each for each in rows if old is not relation or each != row]
+        for each in gone:
+            self._remove(old, each)
+        added = self._add(relation, row)
         self._tell()
-        return changed
+        return added or bool(gone)
 
     def clear(self) -> int:
         """Give up all facts; how many there were."""
@@ -196,11 +196,16 @@ class Store:
 
     def subscribe(self, subscriber: Subscriber) -> Callable[[], None]:
         """Tell SUBSCRIBER of every change from now on; what is returned ends that."""
-        self.subscribers.append(subscriber)
+
+        def hear(change: Change) -> None:
+            if hear in self.subscribers:
+                subscriber(change)
 
         def unsubscribe() -> None:
-            if subscriber in self.subscribers:
-                self.subscribers.remove(subscriber)
+            if hear in self.subscribers:
+                self.subscribers.remove(hear)
+
+        self.subscribers.append(hear)
 
         return unsubscribe
 
@@ -235,32 +240,35 @@ class Store:
         relation.is_plain = False
 
     def _tell(self) -> None:
-        """A change is whole: tell of it, and of those that whoever is told makes, in their order."""
+        """A change is whole: tell of it whoever listens now, after what is being told."""
         try:
-            if self._changes and not self._telling:
-                self._tell_changes()
+            if self._changes:
+                told, self._changes = self._changes, []
+                woken: dict[Watch, Change] = {}
+                for relation, change in told:
+                    if self.audience:
+                        self._calls.append((self.tell, change))
+                    self._calls += [(subscriber, change) for subscriber in self.subscribers]
+                    for watch in woken_by(relation, change.row):
+                        woken.setdefault(watch, change)
+                self._calls += [(watch.wake, change) for watch, change in woken.items()]
+                self._deliver()
         finally:
             if self.journal is not None:
                 self.journal.end_change()
 
-    def _tell_changes(self) -> None:
+    def _deliver(self) -> None:
+        """Make the calls that are due, and those that come to be due by that."""
+        if self._telling:
+            return
         self._telling = True
         trouble: list[BaseException] = []  # one who fails does not keep the others from hearing
-        while self._changes:
-            told, self._changes = self._changes, []
-            calls: list[tuple[Subscriber, Change]] = []
-            woken: dict[Watch, Change] = {}
-            for relation, change in told:
-                if self.audience:
-                    calls.append((self.tell, change))
-                calls += [(subscriber, change) for subscriber in self.subscribers]
-                for watch in woken_by(relation, change.row):
-                    woken.setdefault(watch, change)
-            for call, change in (*calls, *((watch.callback, change) for watch, change in woken.items())):
-                try:
-                    call(change)
-                except BaseException as error:
-                    trouble.append(error)
+        for call, change in self._calls:
+            try:
+                call(change)
+            except BaseException as error:
+                trouble.append(error)
+        self._calls.clear()
         self._telling = False
         if trouble:
             raise trouble[0]

@@ -81,6 +81,11 @@ class Watch:
         self.keys = [(relation, positions, tuple(keys)) for (relation, positions), keys in reads.keys.items()]
         self.callback = callback
 
+    def wake(self, change: Change | None) -> None:
+        """Tell of CHANGE, unless nobody wants to know any more."""
+        if self.keys:
+            self.callback(change)
+
 
 class Watched:
     """The watches on one relation by one way to read it."""

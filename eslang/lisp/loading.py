@@ -36,7 +36,7 @@ def load(path: Value, *options: Value) -> Value:
             return None
         raise simple_error("there is no such file", path, condition="FILE-ERROR")
     try:
-        session.load_file(found, lambda form: form())
+        session.texts.load_file(found, lambda form: form())
     except EslError as error:
         raise simple_error(str(error).split("\n")[0]) from None
     except OSError as trouble:

@@ -4,7 +4,8 @@ In reading order: hooks (what the kernel tells whoever listens), clock, timers,
 the one random source, story (where something happened), events, logical, failures with
 the recovery procedures that answer them, ticks, tasks, lives (how a task begins
 and ends), polls, idling, scheduler (whose turn it is), nets, guarding and periods (what the
-constructs are made of), deadlock, and runs (what is entered from outside).
+constructs are made of), deadlock, runs (what is entered from outside), and visits (what is
+done without a run).
 
 This room must not know any syntax, and it prints nothing: listeners do.
 """

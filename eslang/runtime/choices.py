@@ -18,6 +18,11 @@ WRONG = 65  # the exit code of a run that was told what it cannot do
 Choose = Callable[[Sequence[Any]], int]  # the index of the one that is chosen among the ready
 
 
+def first(ready: Sequence[Any]) -> int:
+    """Nobody chooses: the first is the next."""
+    return 0
+
+
 class Choices:
     """Who chooses, and what was chosen so far."""
 
@@ -31,7 +36,7 @@ class Choices:
         index = self._choose(ready)
         if not 0 <= index < len(ready):
             self._stop(Stop(misfit(len(self.made) + 1, f"number {index}", ready), WRONG))
-            index = 0
+            self._choose, index = first, 0  # until all has ended
         self.made.append(ready[index].name)
         return index
 

@@ -12,18 +12,16 @@ from types import FrameType
 
 from eslang.base.failure import Failure
 from eslang.base.hints import Any, Iterable, NamedTuple
-from eslang.base.lists import Cons, lisp_list
+from eslang.base.lists import lisp_list
 from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.text import String
 from eslang.runtime.events import Event, Wait
 from eslang.runtime.lives import LEAVING
-from eslang.runtime.logical import NOTHING_BOUND
 from eslang.runtime.story import Place, nearest_place
 from eslang.runtime.tasks import FAILED, SUCCEEDED, Task
 
 DEADLOCK = Keyword("DEADLOCK")
-LOGICAL_BINDING = Symbol.intern("LOGICAL-BINDING", "ESL")
 FEW = 3  # relations that a reason names
 
 
@@ -93,7 +91,7 @@ def waiting(task: Task, alive: list[Task]) -> Waiting:
     wait = task.wait
     assert wait is not None
     reason, advice = why(wait, alive)
-    return Waiting(task.name, phrase(wait, bindings_of(task)), place_of_task(task), reason, wait.kind, advice)
+    return Waiting(task.name, phrase(wait), place_of_task(task), reason, wait.kind, advice)
 
 
 def place_of_task(task: Task) -> Place | None:
@@ -102,8 +100,8 @@ def place_of_task(task: Task) -> Place | None:
     return nearest_place(frame if frame is not None else sys._getframe(1))
 
 
-def phrase(wait: Wait, bindings: dict[Symbol, Value] = NOTHING_BOUND.bindings) -> str:
-    """What WAIT is for, in words; logic variables have these BINDINGS."""
+def phrase(wait: Wait) -> str:
+    """What WAIT is for, in words."""
     of: Any = wait.of
     match wait.kind:
         case "events":
@@ -117,22 +115,8 @@ def phrase(wait: Wait, bindings: dict[Symbol, Value] = NOTHING_BOUND.bindings) -
         case "period":
             return "the next period"
         case "condition":
-            return f"the condition {shown(with_bindings(of, bindings))}"
+            return f"the condition {shown(of)}"
     return f"{of}" if of is not None else wait.kind
-
-
-def bindings_of(task: Task) -> dict[Symbol, Value]:
-    """What logic variables are bound to in TASK."""
-    return task.dynamic.logical.bindings
-
-
-def with_bindings(form: Value, bindings: dict[Symbol, Value]) -> Value:
-    """FORM with what #?x is bound to in its place."""
-    if form.__class__ is not Cons:
-        return form
-    if form.car is LOGICAL_BINDING and form.cdr.__class__ is Cons:
-        return bindings.get(form.cdr.car, form)
-    return Cons(with_bindings(form.car, bindings), with_bindings(form.cdr, bindings))
 
 
 def name_of(event: Event) -> str:

@@ -69,7 +69,7 @@ class Gate:
         return self._closed_by is HERE.mark or self._visitor is HERE.mark
 
     def let_in(self, patient: bool = False) -> bool:
-        """Let the thread at hand be a visitor; false if the gate is closed, or, unless PATIENT, somebody is there."""
+        """Let the thread at hand be a visitor; false if the gate is closed or, unless PATIENT, in use."""
         if not self._entrance.acquire(patient):
             return False
         if self._lock.locked():

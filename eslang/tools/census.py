@@ -15,7 +15,7 @@ from eslang.base.failure import Failure
 from eslang.base.printer import prin1
 from eslang.base.shown import shown
 from eslang.base.suggest import nearest
-from eslang.runtime.deadlock import bindings_of, family, phrase, place_of_task
+from eslang.runtime.deadlock import family, phrase, place_of_task
 from eslang.runtime.tasks import ABORTED, FAILED, Task
 from eslang.tools.report import failure_text, place_of
 
@@ -94,9 +94,7 @@ class Census:
             return failure_text(task.failure)
         if task.status is not None:
             return "" if task.status is ABORTED else prin1(task.value)
-        if task.wait is None or task.queued:
-            return ""
-        return f"for {phrase(task.wait, bindings_of(task))}"
+        return f"for {phrase(task.wait)}" if task.wait is not None and not task.queued else ""
 
     def place(self, task: Task) -> str:
         """Where TASK stands, or failed."""

@@ -10,11 +10,11 @@ import os
 import sys
 
 from eslang.base.control import Stop
+from eslang.base.failure import Failure
 from eslang.base.hints import Any, Callable, TextIO
 from eslang.tools.options import Chosen, Usage
 
 YOUNG = 20_000  # objects made before Python looks for rings among them; a list makes as many as it is long
-LATER = ("scenario", "facts")  # options whose rooms are still to be built
 
 
 class OutputClosed(Stop):
@@ -67,9 +67,10 @@ class Opened:
     def __init__(self, chosen: Chosen, listener: Callable[[Any], None] | None) -> None:
         from eslang.interpreter import Interpreter
 
-        for key in LATER:
-            if chosen.has(key):
-                raise Usage(f"`--{key}` is not available yet")
+        for path in chosen.all("scenario"):
+            if path == "-":
+                raise Usage("`--scenario` names a file")
+            readable(path)
         clock = chosen.value("clock") or "real"
         if clock not in ("real", "virtual"):
             raise Usage(f"`--clock` is `real` or `virtual`, not `{clock}`")
@@ -77,13 +78,17 @@ class Opened:
         self.tracer = tracer_of(chosen, clock, seed)
         self.watch = watch_of(chosen)
         self.outlet = Outlet(self.watch or (sys.stderr if chosen.value("trace") == "-" else sys.stdout))
-        self.interp = Interpreter(
-            seed=seed,
-            clock=clock,
-            output=self.outlet,
-            shuffle=chosen.has("shuffle"),
-            listeners=[each for each in (self.tracer, self.watch) if each is not None],
-        )
+        try:
+            self.interp = Interpreter(
+                seed=seed,
+                clock=clock,
+                output=self.outlet,
+                shuffle=chosen.has("shuffle"),
+                listeners=[each for each in (self.tracer, self.watch) if each is not None],
+                facts=chosen.value("facts"),
+            )
+        except Failure as failure:  # the file of facts cannot be had
+            raise Usage(str(failure.arguments[0])) from None
         if listener is not None:
             self.interp.hooks.speakers.append(listener)
 
@@ -95,7 +100,10 @@ class Opened:
         return self.interp
 
     def __exit__(self, *error: object) -> None:
-        self.interp.close()
+        try:
+            self.interp.close()
+        except Failure as failure:  # what the file of facts has not taken is lost
+            sys.stderr.write(f"esl: {failure.arguments[0]}; the last changes are lost\n")
         if self.tracer is not None:
             self.tracer.close(self.interp.clock.now())
 
@@ -155,7 +163,8 @@ def tracer_of(chosen: Chosen, clock: str, seed: int) -> Any:
     path = chosen.value("trace")
     if path is None:
         return None
-    if any(word != "-" and os.path.realpath(word) == os.path.realpath(path) for word in chosen.words):
+    others = [*chosen.words, *chosen.all("facts")]
+    if any(word != "-" and os.path.realpath(word) == os.path.realpath(path) for word in others):
         raise Usage(f"the trace would take the place of `{path}`")
     if path == "-" and chosen.command.name != "run":
         raise Usage("standard output is the prompt's: let `--trace` name a file")
@@ -166,6 +175,15 @@ def tracer_of(chosen: Chosen, clock: str, seed: int) -> Any:
         return Tracer(stream, {"clock": clock, "seed": seed, "plans": chosen.words})
     except OSError as trouble:
         raise Usage(f"cannot write `{path}`: {reason(trouble)}") from None
+
+
+def begin_world(interp: Any, chosen: Chosen) -> None:
+    """Let what the scenarios say that CHOSEN names happen. Raises EslError if one of them is wrong."""
+    if chosen.has("scenario"):
+        from eslang.devices.scenario import begin_scenario, read_scenario
+
+        for scenario in [read_scenario(interp, path) for path in chosen.all("scenario")]:
+            begin_scenario(interp, scenario)
 
 
 def open_trace(path: str) -> TextIO:

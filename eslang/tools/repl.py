@@ -17,7 +17,7 @@ from eslang.tools.conversation import PROMPT, Conversation
 from eslang.tools.interrupts import INTERRUPTED, PATIENCE, Interrupts, Turns
 from eslang.tools.lines import Lines, can_be_awaited
 from eslang.tools.narrator import narrate, narrate_ends
-from eslang.tools.opening import Opened, Outlet, readable
+from eslang.tools.opening import Opened, Outlet, begin_world, readable
 from eslang.tools.options import Chosen
 from eslang.tools.report import wants_colour
 from eslang.tools.run import load, outcome
@@ -37,6 +37,9 @@ def repl(chosen: Chosen) -> int:
         readable(path)
     opened = Opened(chosen, narrate_ends if chosen.has("quiet") else narrate)
     with opened as interp, Turns(interp):
+        code = outcome(interp, lambda: begin_world(interp, chosen))
+        if code:
+            return code
         for path in chosen.words:
             with Interrupts(interp):
                 code = outcome(interp, lambda path=path: load(interp, path))  # type: ignore[misc]

@@ -15,7 +15,7 @@ from eslang.base.hints import Any, Callable
 from eslang.tools.endings import QUIT, to_the_end
 from eslang.tools.interrupts import Interrupts, Turns
 from eslang.tools.narrator import narrate
-from eslang.tools.opening import Opened, OutputClosed, limit_of, readable
+from eslang.tools.opening import Opened, OutputClosed, begin_world, limit_of, readable
 from eslang.tools.options import Chosen, Usage
 
 FAILED, WRONG = 1, 65
@@ -41,7 +41,8 @@ def whole(interp: Any, chosen: Chosen) -> None:
 
 
 def plan(interp: Any, chosen: Chosen) -> None:
-    """Load the files, then evaluate the forms of -e, or else call MAIN."""
+    """Let the world begin, load the files, then evaluate the forms of -e, or else call MAIN."""
+    begin_world(interp, chosen)
     main = None
     for path in chosen.words:
         main = main_function(interp, load(interp, path)) or main

@@ -62,6 +62,10 @@ class Lives:
         self.lives: dict[str, Life] = {}
         self.arrows: list[Arrow] = []
         self._woken: dict[str, tuple[str, str, int]] = {}  # who is to go on: (kind, by whom, since when)
+        self._reads: dict[
+            str, list[str]
+        ] = {}  # the relations that the condition rests on for which who waits
+        self._changed: dict[str, tuple[str | None, int]] = {}  # the last change of each: by whom, when
         for record in trace.records:
             self._note(record)
         for life in self.lives.values():
@@ -99,6 +103,8 @@ class Lives:
             self._arrow("abort", told["by"], number, told["of"], number)
         elif kind == "interrupt-sent":
             self._woken[told["to"] + " interrupt"] = ("interrupt", told["by"], number)
+        elif kind == "fact":
+            self._changed[words_of(told["fact"])[0]] = record.task, number
         if record.task is not None:
             self._note_of(self.life(record.task, number), record)
 
@@ -116,6 +122,8 @@ class Lives:
             self._begin(life, BEGINS[kind], number)
         elif kind in ENDS:
             self._leave(life, (ENDS[kind],), number)
+        elif kind == "watch":
+            self._reads[life.name] = [] if told["polls"] else words_of(told["relations"])
         elif kind in ("signal", "checkpoint"):
             for name in told["wakes"]:
                 self._woken[name] = ("signal", life.name, number)
@@ -145,6 +153,13 @@ class Lives:
     def _wake_up(self, life: Life, record: Record) -> None:
         """LIFE goes on, because of what woke it or because of who has ended."""
         self._arrive(life.name, life, record.number)
+        if record.told["on"] == "condition" and record.told["how"] == "came":
+            changes = [
+                self._changed[name] for name in self._reads.get(life.name, ()) if name in self._changed
+            ]
+            by, number = max(changes, key=lambda change: change[1], default=(None, -1))
+            if number >= life.since:
+                self._arrow("signal", by, number, life.name, record.number)
         if record.told["on"] in ("end", "tasks", "leaving") and record.told["how"] == "came":
             of = record.told["of"]
             names = of if isinstance(of, list) else [of]
@@ -183,6 +198,11 @@ class Lives:
             if life.layers[index][0] in states:
                 del life.layers[index:]
                 return
+
+
+def words_of(text: str | None) -> list[str]:
+    """The symbols of a list, as a trace has it."""
+    return (text or "?").strip("()").split() or ["?"]
 
 
 def counts(lives: Lives) -> dict[str, int]:

@@ -108,9 +108,10 @@ def _wait(told: dict[str, Any]) -> str:
 
 
 def _watch(told: dict[str, Any]) -> str:
-    names = value_text(told["relations"]).strip("()").split() if told["relations"] is not None else []
-    when = "each step of another" if told["polls"] else f"a change of facts of {listed(names)}"
-    return f"looks at {value_text(told['of'])} again after {when}"
+    if told["polls"]:
+        return "is to look again after each step of another task"
+    names = value_text(told["relations"]).strip("()").split()
+    return f"is to wake when facts of {listed(names)} change"
 
 
 def _resume(told: dict[str, Any]) -> str:

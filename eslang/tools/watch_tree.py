@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+from eslang.base.shown import shown
 from eslang.runtime.deadlock import phrase
 from eslang.runtime.story import Place
 from eslang.runtime.tasks import Task
@@ -55,6 +56,8 @@ class WatchTree:
         self.failed: dict[str, None] = {}  # likewise, those that failed
         self.counts: dict[str, int] = {}  # how many ended how
         self.last_failure = ""
+        self.facts = {True: 0, False: 0}  # how many came, and went
+        self.last_fact = ""
         self._order = 0
 
     def __call__(self, event: Any) -> None:
@@ -139,6 +142,14 @@ class WatchTree:
         by = f" by {told['by'].name}" if told["by"] is not None else ""
         self.of(told["of"]).why = f"aborted{by}"
 
+    def change(self, event: Any, told: dict[str, Any]) -> None:
+        """A fact came, or went."""
+        self.facts[told["added"]] += 1
+        sign = "+" if told["added"] else "−"
+        where = f" in {event.task.name}" if event.task is not None else ""
+        place = f" at {short(event.form)}" if event.form is not None else ""
+        self.last_fact = f"{sign} {shown(told['fact'])}{where}{place}"
+
     # --- lines -------------------------------------------------------------------
 
     def lines(self, now: float, room: int) -> list[tuple[str, str, str]]:
@@ -158,6 +169,11 @@ class WatchTree:
             more = [f"{left + gone - waiting} that ended"] if left + gone > waiting else []
             found.append((" ", "…", ", ".join([*([f"{waiting} more that live"] if waiting else []), *more])))
         return found
+
+    def fact_line(self) -> str:
+        """How many facts came and went, and the last of them; nothing if there were none."""
+        came, went = self.facts[True], self.facts[False]
+        return f"facts: {came:,} came, {went:,} went, last {self.last_fact}" if self.last_fact else ""
 
     def _chosen(self, room: int) -> dict[str, Seen]:
         """The tasks that are shown: those alive before those that ended, each with what it belongs to."""
@@ -244,4 +260,5 @@ NOTES = {
     "cleanup-ended": WatchTree.leave,
     "failure": WatchTree.fail,
     "abort": WatchTree.abort,
+    "fact": WatchTree.change,
 }

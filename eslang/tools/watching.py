@@ -161,6 +161,8 @@ class Watch:
             hue = HUES.get(mark, "2")
             body = fitted(text, columns - 2)
             lines.append(f"{self._hued(mark, hue)} {self._hued(body, hue) if hue in ('2', '31') else body}")
+        if self.tree.last_fact:
+            lines.append(self._hued(fitted(self.tree.fact_line(), columns), "2"))
         if self.tree.last_failure:
             lines.append(self._hued(fitted(f"last failure: {self.tree.last_failure}", columns), "31"))
         return lines

@@ -1,9 +1,9 @@
 """Every diagnostic, beside the program that it is about.
 
 `NAME.esl`, or `NAME-and-something-more.esl`, is wrong; `NAME.expected` is what
-is said of it. What lies in reader/ is only read; what lies in any other folder
-is loaded, and checked if the loading finds nothing. write_expected.py writes
-the expectations anew.
+is said of it. What lies in reader/ is only read, and what lies in scenario/ is
+read as a scenario; what lies in any other folder is loaded, and checked if the
+loading finds nothing. write_expected.py writes the expectations anew.
 """
 
 from __future__ import annotations
@@ -45,6 +45,21 @@ def read_only(path: Path) -> Iterator[Diagnostic]:
         yield error.diagnostic
 
 
+def read_as_scenario(path: Path) -> Iterator[Diagnostic]:
+    """The mistake that is found in a scenario before the run."""
+    from eslang.devices.scenario import read_scenario
+    from eslang.interpreter import Interpreter
+
+    with Interpreter(clock="virtual", output=StringIO()) as interp:
+        try:
+            read_scenario(interp, path.name)
+        except EslError as error:
+            yield error.diagnostic
+
+
+READINGS = {"reader": read_only, "scenario": read_as_scenario}
+
+
 def load_or_check(path: Path) -> Iterator[Diagnostic]:
     """The mistake that shows when PATH is loaded, or what `esl check` finds without that."""
     from eslang.base.failure import Failure
@@ -64,7 +79,7 @@ def load_or_check(path: Path) -> Iterator[Diagnostic]:
 
 def said_of(path: Path) -> tuple[str, list[str]]:
     """What is said of the program at PATH, and by diagnostics of which names."""
-    found = list(read_only(path) if path.parent.name == "reader" else load_or_check(path))
+    found = list(READINGS.get(path.parent.name, load_or_check)(path))
     text = "\n".join([render(diagnostic) for diagnostic in found]) + "\n"
     return text, [diagnostic.name for diagnostic in found]
 

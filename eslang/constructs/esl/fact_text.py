@@ -15,26 +15,32 @@ from eslang.base.failure import Failure, simple_error
 from eslang.base.hints import Callable, Iterator
 from eslang.base.lists import Cons, from_items
 from eslang.base.number_text import float_text, integer_text
+from eslang.base.packages import Package
 from eslang.base.printer import prin1
 from eslang.base.resolve import Resolve
 from eslang.base.spans import Source
 from eslang.base.symbol_text import escaped_name
-from eslang.base.symbols import Datum, Keyword, Symbol, T, Value
+from eslang.base.symbols import Datum, Keyword, Symbol, Value
 from eslang.base.text import Character, String
 from eslang.facts.terms import Row, fact_of, value_of
-from eslang.reader.atoms import Unreadable, read_string, read_token
+from eslang.reader.atoms import Unreadable, read_character, read_string, read_token
 
-COMMON_LISP, USER = "COMMON-LISP", "ESL-USER"
+USER = "ESL-USER"
 NAMES = (Symbol, Keyword, type(None))  # classes of symbols
 LARGE = 10**18  # an integer below it is surely no trouble to Python
 MANY = 100_000  # tokens whose values are remembered
 BLANKS = " \t\r"
+DOT = object()  # what stands before the tail of a list
 OTHER = object()  # instead of a value: what only the reader can tell
 
-_ATOM = r"[^\s()\"';`,|\\\0#][^\s()\"';`,|\\\0]*"  # of the grammar, if nothing in it is protected
+# Tokens as the grammar has them (reader/esl.lark): the two change together.
+_PIECE = r"""[^\s()"';`,|\\\0]|\\[^\0]|\|(?:[^|\\\0]|\\[^\0])*\|"""
+_ATOM = rf"""(?!\#|\.+(?![^\s()"';`,\0]))(?:{_PIECE})+(?![^\s()"';`,\0])"""
 _STRING = r'"[^"\\\0]*(?:\\[^\0][^"\\\0]*)*"'
-_is_atom = re.compile(rf"(?!\.+\Z){_ATOM}").fullmatch
-_next_token = re.compile(rf" *(?:(\()|(\))|({_STRING})|({_ATOM}))").match
+_CHARACTER = r"""\#\\[^\0][^\s()"';`,\0]*"""
+_is_atom = re.compile(_ATOM).fullmatch
+_next_token = re.compile(rf" *(?:(\()|(\))|({_ATOM})|({_STRING})|({_CHARACTER})|(\.)(?= ))").match
+_OPEN, _CLOSE, _AN_ATOM, _A_STRING, _A_CHARACTER = 1, 2, 3, 4, 5
 
 
 class Unwritable(Exception):
@@ -143,26 +149,40 @@ def _lowered(text: str) -> str:
 
 def with_home(symbol: Symbol | None) -> str:
     """The name of SYMBOL behind that of its home package. Raises Unwritable if it has none."""
-    home = COMMON_LISP if symbol is None else symbol.package
+    home = "COMMON-LISP" if symbol is None else symbol.package
     if home is None:
         raise Unwritable("an uninterned symbol is read as another one")
     return (":" if home == "KEYWORD" else _lowered(escaped_name(home)) + "::") + name_text(symbol)
 
 
-def full_name(symbol: Symbol | None) -> str:
-    """The name of SYMBOL with its home, whatever packages there are; bare if it is one of ESL-USER."""
-    if symbol is None or symbol is T or (symbol.package == USER and symbol.name not in ("T", "NIL")):
-        return name_text(symbol)
-    return with_home(symbol)
+class UserNames:
+    """Names as a program in ESL-USER means them before it has defined anything, whatever it defines later.
 
+    Symbols of its own packages stand with their home, and are found although
+    that is not there yet.
+    """
 
-def full_symbol(package: str | None, name: str, external_only: bool) -> Symbol | None:
-    """The symbol that full_name has written so."""
-    if package is None:
-        if name == "NIL":
-            return None
-        package = COMMON_LISP if name == "T" else USER
-    return Symbol.intern(name, package)
+    def __init__(self, user: Package) -> None:
+        self._meant: dict[str, Symbol | None] = {"NIL": None}
+        for symbol in user.accessible():
+            if symbol is not None:
+                self._meant[symbol.name] = symbol
+
+    def name_of(self, symbol: Symbol | None) -> str:
+        """The text of SYMBOL. Raises Unwritable if it has no home."""
+        if symbol is None:
+            return name_text(symbol)
+        if self._meant.get(symbol.name, symbol) is symbol and (
+            symbol.package == USER or symbol.name in self._meant
+        ):
+            return name_text(symbol)
+        return with_home(symbol)
+
+    def resolve(self, package: str | None, name: str, external_only: bool) -> Symbol | None:
+        """The symbol that has this text."""
+        if package is not None:
+            return Symbol.intern(name, package)
+        return self._meant[name] if name in self._meant else Symbol.intern(name, USER)
 
 
 class Scanner:
@@ -191,39 +211,51 @@ class Scanner:
         return fact
 
     def _value(self, token: str) -> Value:
-        if _is_atom(token) is None:
-            return OTHER
+        """What a token means; OTHER if it is none, or a wrong one, for which the reader finds the words."""
         try:
-            value = read_token(token, self.resolve)
+            if token.isascii() and token.replace("-", "").isalnum() and token[0].isalpha():
+                value: Value = self.resolve(None, token.upper(), False)
+            elif _is_atom(token) is not None:
+                value = read_token(token, self.resolve)
+            else:
+                return OTHER
         except Unreadable:
-            return OTHER  # the reader finds the words for it
+            return OTHER
         if len(self._known) >= MANY:
             self._known.clear()
         self._known[token] = value
         return value
 
     def _nested(self, line: str) -> Value:
-        """The same for a list that holds strings and lists."""
+        """The same for a list that holds strings, lists and what else the writer writes."""
         stack: list[list[Value]] = []
         position = 0
         while (found := _next_token(line, position)) is not None:
-            position = found.end()
-            kind = found.lastindex
-            if kind == 1:
+            position, kind = found.end(), found.lastindex
+            if kind == _OPEN:
                 stack.append([])
                 continue
-            if kind == 2:
-                value = from_items(stack.pop())
-                if not stack:
-                    return value if position == len(line) else OTHER
-            elif kind == 3:
-                value = read_string(found[3])
-            else:
-                value = self._known.get(found[4], OTHER)
-                if value is OTHER and (value := self._value(found[4])) is OTHER:
+            if kind == _CLOSE:
+                value = _list_of(stack.pop())
+                if not stack and position < len(line):
                     return OTHER
+            else:
+                value = self._token(found[0].lstrip(" "), kind)
+            if not stack or value is OTHER:
+                return value
             stack[-1].append(value)
         return OTHER
+
+    def _token(self, token: str, kind: int | None) -> Value:
+        if kind == _AN_ATOM:
+            value = self._known.get(token, OTHER)
+            return self._value(token) if value is OTHER else value
+        if kind == _A_STRING:
+            return read_string(token)
+        try:
+            return read_character(token) if kind == _A_CHARACTER else DOT
+        except Unreadable:
+            return OTHER
 
     def forms(self, source: Source) -> Iterator[tuple[int, Value]]:
         """The forms of SOURCE, each with the number of its line. Raises EslError."""
@@ -248,6 +280,14 @@ class Scanner:
                     continue
                 yield number, form
             number, offset = number + 1, end + 1
+
+
+def _list_of(parts: list[Value]) -> Value:
+    """The list of PARTS, the last of which may be its tail, behind a dot."""
+    dots = [place for place, part in enumerate(parts) if part is DOT]
+    if not dots:
+        return from_items(parts)
+    return from_items(parts[:-2], parts[-1]) if dots == [len(parts) - 2] and len(parts) > 2 else OTHER
 
 
 def read_one(text: str, name: str, resolve: Resolve) -> Value:

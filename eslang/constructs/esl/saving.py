@@ -76,20 +76,10 @@ def load_facts(file: Value) -> Value:
 
     Source: ours (decision 24); the papers keep their facts in memory.
     """
-    from eslang.base.decoding import decode, file_bytes, find_file
-
     path, session = file_name(file, "load-facts"), running.session
-    path = find_file(path, session.image.cell(LOAD_PATHNAME).value) or path
-    try:
-        content = file_bytes(path)
-    except (OSError, ValueError) as trouble:
-        raise refusal("read", path, trouble) from None
-    try:
-        facts, lines = forms_of(decode(content, path), session.image)
-    except EslError as error:
-        found = error.diagnostic.labels[0].span
-        damaged(path, found.line, error.diagnostic.message, String(found.source.line(found.line).strip()))
+    facts, lines = facts_in(path, session.image)
     database: Facts = session.database
+    check_arities(database, path, facts, lines)
     try:
         return database.add_all(facts)
     except Failure:
@@ -99,6 +89,39 @@ def load_facts(file: Value) -> Value:
             except Failure as failure:
                 damaged(path, line, f"this is no fact: {reason(failure)}", fact)
         raise  # it is not about the facts
+
+
+def facts_in(path: str, image: Image) -> tuple[list[Value], list[int]]:
+    """What the file PATH holds, and on which lines. Raises Failure."""
+    from eslang.base.decoding import decode, file_bytes, find_file
+
+    try:
+        content = file_bytes(find_file(path, image.cell(LOAD_PATHNAME).value) or path)
+    except (OSError, ValueError) as trouble:
+        raise refusal("read", path, trouble) from None
+    try:
+        return forms_of(decode(content, path), image)
+    except EslError as error:
+        found = error.diagnostic.labels[0].span
+        damaged(path, found.line, error.diagnostic.message, String(found.source.line(found.line).strip()))
+
+
+def check_arities(database: Facts, path: str, facts: list[Value], lines: list[int]) -> None:
+    """Refuse facts with another number of arguments than was declared."""
+    declared = {name: arities for name, arities in database.declared.items() if arities}
+    for fact, line in zip(facts, lines, strict=True) if declared else ():
+        arities = declared.get(fact.car) if fact.__class__ is Cons else None
+        if arities and length(fact) - 1 not in arities:
+            expected = " or ".join(map(str, sorted(arities)))
+            damaged(path, line, f"this relation was declared with {expected} arguments", fact)
+
+
+def length(fact: Value) -> int:
+    """How many elements FACT has, whatever it ends with."""
+    count = 0
+    while fact.__class__ is Cons:
+        count, fact = count + 1, fact.cdr
+    return count
 
 
 def forms_of(source: Any, image: Image) -> tuple[list[Value], list[int]]:
@@ -157,7 +180,7 @@ def written_in(image: Image) -> Callable[[Symbol | None], str]:
             return name_text(symbol)
         there = image.packages.get(home)
         if there is None or there.find(name) not in ((symbol, True), (None, False)):
-            raise Unwritable("it holds a symbol that its home package does not know any more")
+            raise Unwritable(f"the name of the symbol {name} is not read as this symbol")
         return with_home(symbol)
 
     return name_of
@@ -184,11 +207,11 @@ def write_whole(path: str, text: str) -> None:
     """Let the file PATH hold TEXT. If that fails, it is as it was before. Raises Failure."""
     import os
 
-    target = os.path.realpath(path)
-    fresh = os.path.join(os.path.dirname(target), f".{os.path.basename(target)}.{os.getpid()}")
     try:
+        target = os.path.realpath(path)
         if os.path.exists(target) and not os.path.isfile(target):
-            raise OSError(0, "it is no plain file")
+            raise OSError("it is no plain file")
+        fresh = os.path.join(os.path.dirname(target), f".{os.path.basename(target)}.{os.getpid()}")
         try:
             with open(fresh, "wb") as stream:
                 stream.write(text.encode())
@@ -197,10 +220,9 @@ def write_whole(path: str, text: str) -> None:
             if os.path.exists(target):
                 os.chmod(fresh, os.stat(target).st_mode)
             os.replace(fresh, target)
-        except BaseException:
+        finally:
             if os.path.exists(fresh):
                 os.remove(fresh)
-            raise
     except (OSError, ValueError) as trouble:  # a name with a NUL in it is a ValueError
         raise refusal("written", path, trouble) from None
 

@@ -275,6 +275,15 @@ def test_a_query_may_be_longer_than_python_nests() -> None:
     assert facts.answers("(far 0 ?x)") == ["30", "31"]
 
 
+def test_a_fact_may_hold_more_lists_than_python_nests() -> None:
+    places = range(120)
+    facts = Asking(f"(p {' '.join(f'(f {place})' for place in places)})")
+    pattern = f"(p {' '.join(f'(f ?v{place})' for place in places)})"
+    assert facts.answers(pattern) == [" ".join(map(str, places))]
+    assert facts.answers(pattern.replace("?v7)", "?v8)")) == []
+    assert facts.retract(read(pattern)) == 1
+
+
 def test_an_explanation_tells_plan_and_indexes() -> None:
     facts = Asking(*DEVICES)
     explained = facts.explain(

@@ -52,6 +52,19 @@ def test_update_puts_a_fact_in_the_place_of_others() -> None:
     assert facts.held() == ["(TOTAL 7)"]
 
 
+def test_update_tells_whether_it_changed_anything_even_if_nobody_listens() -> None:
+    facts = Asking("(count 1)", "(count 2)")
+    assert facts.update(read("(count ?n)"), read("(count 2)"))
+    assert not facts.update(read("(count ?n)"), read("(count 2)"))
+    assert facts.update(read("(count ?n)"), read("(count 3)"))
+    assert facts.update(read("(count 4)"), read("(count 4)"))
+    answers: list[bool] = []
+    unsubscribe = facts.subscribe(lambda _: answers.append(facts.update(read("(p ?n)"), read("(p 1)"))))
+    facts.add_all(map(read, ["(q 1)", "(q 2)"]))
+    unsubscribe()
+    assert answers == [True, False, False]
+
+
 @pytest.mark.parametrize("text", ["a", "((a) b)", "(1 2)", "(a . b)", "(?x 1)", "nil", "(not (p))"])
 def test_what_is_no_fact_is_refused(text: str) -> None:
     with pytest.raises(Failure):
@@ -122,6 +135,14 @@ def test_changes_made_by_who_is_told_are_told_afterwards() -> None:
     unsubscribe()
     facts.clear()
     assert len(told) == 3 and len(facts) == 0
+
+
+def test_who_subscribes_no_more_hears_not_even_of_the_rest_of_a_change() -> None:
+    facts = Asking("(p 1)", "(p 2)")
+    told: list[str] = []
+    unsubscribe = facts.subscribe(lambda change: (told.append(repr(change)), unsubscribe()))
+    facts.retract(read("(p ?_)"))
+    assert told == ["-(P 1)"]
 
 
 def test_many_facts_are_one_change_or_none() -> None:

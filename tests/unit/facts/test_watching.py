@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from asking import Asking, read
 from eslang.facts.watching import Change, Watch, unwatch, watch
 
@@ -95,6 +97,49 @@ def test_who_watches_no_more_is_not_woken() -> None:
     unwatch(one)
     facts.add(read("(p 2)"))
     assert (len(first), len(second)) == (0, 1)
+
+
+def test_who_watches_no_more_by_the_time_of_the_call_is_not_called() -> None:
+    facts = Asking("(p 1)")
+    _, reads = facts.ask(read("(p 2)"))
+    watches: list[Watch] = []
+    woken: list[int] = []
+    for number in (0, 1):
+        watches.append(watch(reads, lambda _, number=number: (woken.append(number), unwatch(watches[1]))))
+    facts.add(read("(p 2)"))
+    assert woken == [0]
+
+
+def test_a_change_that_was_seen_when_the_watch_began_does_not_wake() -> None:
+    facts = Asking("(p 1)")
+    woken: list[str] = []
+
+    def change_and_watch(change: Change) -> None:
+        if change.name.name == "P":
+            facts.add(read("(q 2)"))
+            _, reads = facts.ask(read("(q 2)"))
+            watch(reads, lambda each: woken.append(repr(each)))
+
+    facts.subscribe(change_and_watch)
+    facts.add(read("(p 2)"))
+    assert woken == []
+    facts.retract(read("(q 2)"))
+    assert woken == ["-(Q 2)"]
+
+
+def test_one_who_fails_keeps_nobody_from_hearing_of_rules() -> None:
+    facts = Asking("(p 1)")
+    _, reads = facts.ask(read("(q 1)"))
+    woken: list[Change | None] = []
+
+    def fail(change: Change | None) -> None:
+        raise ZeroDivisionError
+
+    watch(reads, fail)
+    watch(reads, woken.append)
+    with pytest.raises(ZeroDivisionError):
+        facts.rule("((q ?x) (p ?x))")
+    assert woken == [None] and facts.answers("(q ?x)") == ["1"]
 
 
 def test_a_relation_that_is_not_there_yet_can_be_waited_for() -> None:

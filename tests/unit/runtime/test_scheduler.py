@@ -113,8 +113,9 @@ BINDINGS = """
           (b (dotimes (i 4) (here 0) (yield)) (let ((*d* 2)) (task-net (c (here 2) (setq *d* 3)
               (yield) (here 3)))
                                                             (here 2)))
-          (d (let ((*d* 4)) (cleaned (here 4) (sleep 2))))
-          (e (progv '(*d*) '() (yield) (note (boundp '*d*))) (here 0) (interrupt-task d (lambda () (here 4))))
+          (d (let ((*d* 4)) (checkpoint :in) (cleaned (here 4) (sleep 2))))
+          (e (progv '(*d*) '() (yield) (note (boundp '*d*))) (here 0) (checkpoint-wait d :in)
+              (interrupt-task d (lambda () (here 4))))
           (f (sleep 1) (abort-task d)))
 """
 

@@ -171,3 +171,34 @@ def test_who_ended_before_what_is_told_has_no_lane_any_more() -> None:
         "           ●    main  goes on",
         "           ✓    main  has succeeded",
     ]
+
+
+FACTS = """
+(defproperty power-state (device state))
+(task-net
+  (film (wait-until (power-state camera :on)))
+  (clock (wait-until (> 1 (+ 1 1)) :timeout 9))
+  (switch (sleep 1) (assert '(heat camera 40)) (update '(heat camera ?_) '(heat camera 50))
+          (assert '(power-state camera :on))))
+"""
+
+
+def test_facts_are_told_as_they_come_and_go() -> None:
+    assert "\n".join(lines(FACTS, kinds=["fact"])[3:]) + "\n" == dedent("""\
+        Timeline
+            1.000  ┊┊┊+  switch  asserts (HEAT CAMERA 40)                  plan.esl:6:21
+                   ┊┊┊−  switch  retracts (HEAT CAMERA 40)                 plan.esl:6:48
+                   ┊┊┊+  switch  asserts (HEAT CAMERA 50)                  plan.esl:6:48
+                   ┊┊┊+  switch  asserts (POWER-STATE CAMERA :ON)          plan.esl:7:11
+        """)
+
+
+def test_what_will_wake_a_condition_is_told() -> None:
+    told = "\n".join(lines(FACTS, columns=120, kinds=["watch"]))
+    assert "film   is to wake when facts of POWER-STATE change" in told
+    assert "clock  is to look again after each step of another task" in told
+
+
+def test_an_arrow_leads_from_who_asserts_to_whom_that_wakes() -> None:
+    arrows = [arrow for arrow in Lives(traced(FACTS)).arrows if arrow.kind == "signal"]
+    assert [(arrow.source, arrow.target) for arrow in arrows] == [("switch", "film")]

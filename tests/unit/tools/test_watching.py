@@ -102,6 +102,24 @@ def test_the_last_failure_is_kept_and_who_recovers() -> None:
     assert tree.last_failure.endswith("in main.6, recovery at plan.esl:10:28")
 
 
+def test_facts_are_counted_and_the_last_change_is_told() -> None:
+    tree = WatchTree()
+    for event in told("(sleep 1)"):
+        tree(event)
+    assert tree.fact_line() == ""
+    for event in told(
+        "(task-net (a (assert '(at robot dock)) (assert '(at arm 2)) (retract '(at robot ?x))))"
+    ):
+        tree(event)
+    assert tree.fact_line() == "facts: 2 came, 1 went, last − (at robot dock) in a at plan.esl:1:61"
+
+
+def test_a_condition_is_shown_with_the_values_of_its_variables() -> None:
+    plan = """(assert '(is-a w1 widget))
+      (with-query-bindings '(is-a ?w widget) (task-net (a (wait-until (power #?w :on) :timeout 1))))"""
+    assert "waits for the condition (power w1 :on)" in snapshots(plan, "watch")[0]
+
+
 @pytest.mark.parametrize("room", [4, 10, 25])
 def test_there_are_never_more_lines_than_room(room: int) -> None:
     crowd = "(dotimes (n 60) (spawn (sleep (+ 1 n)))) (sleep 30) (fail :odd)"

@@ -1,0 +1,145 @@
+"""What wakes a task that waits for a condition over facts, and how often it asks (decision 19)."""
+
+from __future__ import annotations
+
+from io import StringIO
+from typing import Any
+
+import pytest
+
+from eslang import Interpreter
+from support import lines_of
+
+
+class Questions:
+    """How often the database was asked whether a condition holds, by the waits of a plan."""
+
+    def __init__(self, text: str) -> None:
+        self.count = 0
+        output = StringIO()
+        with Interpreter(clock="virtual", output=output) as agent:
+            ask = agent.database.ask
+
+            def counted(*given: Any) -> Any:
+                self.count += 1
+                return ask(*given)
+
+            agent.database.ask = counted  # type: ignore[method-assign]
+            agent.eval(text)
+        self.lines = output.getvalue().split()
+
+
+FAR = "(defrule (far ?x) (is-a ?x agent) (not (at ?x lab)))"
+MOVES = "(dotimes (i 5) (sleep 1) (assert (list 'temperature i)))"
+
+
+@pytest.mark.parametrize(
+    ("condition", "before", "changes", "count"),
+    [
+        # condition, what is there, what is done one second after the other, questions
+        ("(at robot lab)", "", "((assert (at robot lab)))", 2),
+        ("(at robot lab)", "", "((assert (at cup lab)) (assert (at robot dock)) (assert (at robot lab)))", 2),
+        ("(at ?who lab)", "", "((assert (at cup dock)) (assert (at robot lab)))", 2),
+        (
+            "(not (at robot ?_))",
+            "(assert '(at robot lab))",
+            "((assert (at cup lab)) (retract (at robot lab)))",
+            2,
+        ),
+        # another fact keeps it false: that has to be looked at
+        (
+            "(not (at robot ?_))",
+            "(assert '(at robot lab)) (assert '(at robot dock))",
+            "((retract (at robot lab)) (retract (at robot dock)))",
+            3,
+        ),
+        (
+            "(near robot)",
+            "(defrule (near ?x) (at ?x lab))",
+            "((assert (at cup lab)) (assert (at robot lab)))",
+            2,
+        ),
+        ("(near robot)", "", "((assert (at robot lab)) (defrule))", 2),
+        ("(and (a ?x) (b ?x))", "(assert '(a 1))", "((assert (b 2)) (assert (c 1)) (assert (b 1)))", 2),
+        (
+            "(far robot)",
+            FAR,
+            "((assert (is-a robot agent)))",
+            2,
+        ),
+        (
+            "(far robot)",
+            f"{FAR} (assert '(is-a robot agent)) (assert '(at robot lab))",
+            "((retract (at cup lab)) (assert (at cup lab)) (retract (at robot lab)))",
+            2,
+        ),
+    ],
+)
+def test_a_condition_is_asked_again_when_what_it_rests_on_has_changed(
+    condition: str, before: str, changes: str, count: int
+) -> None:
+    text = f"""
+    {before}
+    (task-net
+      (waiter (wait-until {condition}) (print :woken))
+      (world {MOVES}
+             (dolist (change '{changes})
+               (sleep 1)
+               (if (eq (first change) 'defrule)
+                   (defrule (near ?x) (at ?x lab))
+                   (apply (first change) (rest change))))))
+    """
+    asked = Questions(text)
+    assert (asked.lines, asked.count) == ([":WOKEN"], count)
+
+
+def test_of_many_waiting_tasks_only_the_one_concerned_asks_again() -> None:
+    text = """
+    (let ((tasks (loop for i from 0 below 100
+                       collect (let ((i i)) (spawn (wait-until `(arrived ,i)))))))
+      (yield)
+      (assert '(arrived 42))
+      (yield)
+      (print (task-status (nth 42 tasks)))
+      (print (count :waiting (mapcar #'task-status tasks)))
+      (mapc #'abort-task tasks))
+    """
+    asked = Questions(text)
+    assert (asked.lines, asked.count) == ([":SUCCEEDED", "99"], 101)
+
+
+def test_recursive_rules_wake_as_well() -> None:
+    text = """
+    (defrule (reaches ?x ?y) (way ?x ?y))
+    (defrule (reaches ?x ?z) (reaches ?x ?y) (way ?y ?z))
+    (assert '(way a b)) (assert '(way c d)) (assert '(way b a))
+    (task-net
+      (there (wait-until (reaches a d)) (print :there))
+      (cut-off (wait-until (and (way c d) (not (reaches a c)) (reaches a d2))) (print :never))
+      (world (sleep 1) (assert '(way x y)) (sleep 1) (assert '(way b c)) (sleep 1) (abort-task cut-off)))
+    """
+    asked = Questions(text)
+    assert asked.lines == [":THERE"]
+
+
+def test_a_condition_that_asks_lisp_as_well_is_woken_by_facts_and_looked_at_after_steps() -> None:
+    text = """
+    (defvar *ready* nil)
+    (task-net
+      (by-fact (wait-until (or (at robot lab) *ready*)) (print :by-fact))
+      (by-lisp (wait-until (or (at cup lab) *ready*)) (print :by-lisp))
+      (world (sleep 1) (assert '(at robot lab)) (sleep 1) (setf *ready* t)))
+    """
+    assert lines_of(text) == [":BY-FACT", ":BY-LISP"]
+
+
+def test_parts_without_variables_are_asked_before_the_others() -> None:
+    text = """
+    (defvar *order* nil)
+    (defun ready () (push :ready *order*) t)
+    (defun note (x) (push x *order*) t)
+    (assert '(a 1))
+    (achieve (and (a ?x) (note ?x) (ready)))
+    (print (reverse *order*))
+    """
+    assert lines_of(text) == ["(:READY 1)"]
