@@ -16,7 +16,7 @@ from eslang.base.failure_text import message_of
 from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Iterator, NamedTuple, Sequence
 from eslang.base.resolve import resolve_in
 from eslang.base.symbols import Symbol, Value
-from eslang.constructs.esl.queries import in_force
+from eslang.constructs.queries import in_force
 from eslang.facts.goals import read_query
 from eslang.facts.query import Facts
 from eslang.facts.store import Store

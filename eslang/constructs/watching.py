@@ -11,7 +11,7 @@ from eslang.base.hints import TYPE_CHECKING, Any, Callable
 from eslang.base.lists import from_items
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value
-from eslang.constructs.esl.queries import as_bound
+from eslang.constructs.queries import as_bound
 from eslang.runtime.events import Wait
 from eslang.runtime.polls import CONDITION
 

@@ -14,7 +14,7 @@ from eslang.base.text import String
 from eslang.compile.analyser import Use
 from eslang.compile.core import Call, Const, If, Inline, Node
 from eslang.compile.registry import CL, ESL
-from eslang.constructs.esl.queries import LOGICAL_BINDING
+from eslang.constructs.queries import LOGICAL_BINDING
 from eslang.facts.goals import CONNECTIVES
 from eslang.facts.unify import is_variable
 

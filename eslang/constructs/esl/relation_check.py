@@ -32,7 +32,7 @@ from eslang.constructs.esl.mentions import (
     Question,
     parts_of,
 )
-from eslang.constructs.esl.queries import LOGICAL_BINDING
+from eslang.constructs.queries import LOGICAL_BINDING
 from eslang.facts.goals import AND, NOT, UNBOUND, read_query, shape_of, variables_of
 from eslang.facts.query import Facts
 from eslang.facts.rules import UNSTRATIFIED
