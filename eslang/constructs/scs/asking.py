@@ -17,7 +17,7 @@ from eslang.runtime.events import Wait
 from eslang.runtime.polls import CONDITION
 
 DEACTIVATED = Keyword("DEACTIVATED")  # what a step gives that neither succeeded nor failed
-LEFT = Keyword("LEFT")  # what a level gives whose conditions do not hold any more
+LEFT: Value = object()  # what a level gives whose conditions do not hold any more
 Bindings = dict[Symbol, Value]
 
 
@@ -107,11 +107,11 @@ class Asker:
 
         def still() -> bool:
             answer = holds()
-            level.polls = any([each.polls for each in on])
+            level.polls = any(each.polls for each in on)
             return answer
 
         level = self.level = Level(self.task, outer, still)
-        level.polls = any([each.polls for each in on])
+        level.polls = any(each.polls for each in on)
         dynamic.logical = outer.within(bindings)._replace(circuit=level)
         try:
             return failures.guarded(body)
@@ -130,7 +130,7 @@ class Asker:
 
         def any_holds() -> Value:
             found = [each for each in listed if each.holds()]
-            wait.polls = any([each.polls for each in listed])
+            wait.polls = any(each.polls for each in listed)
             return found or None
 
         wait = self.wait = Wait(self.task, CONDITION, of, (), any_holds)
@@ -170,7 +170,7 @@ def run_under(modifiers: Any, body: Callable[[], Value]) -> Value:
         dynamic.logical = outer.within(bindings)
         if not lasting:
             return body()
-        value = asker.run(lasting, lambda: all([each.holds() for each in lasting]), bindings, body)
+        value = asker.run(lasting, lambda: all(each.holds() for each in lasting), bindings, body)
         return DEACTIVATED if value is LEFT else value
     finally:
         dynamic.logical = outer

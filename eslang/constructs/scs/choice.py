@@ -286,7 +286,7 @@ class Choice(Asker):
             mine = alternatives[number]
 
             def holds(mine: Alternative = mine, before: list[Asked] = before) -> bool:
-                return not any([each.holds() for each in before]) and mine.asked.holds()
+                return not any(each.holds() for each in before) and mine.asked.holds()
 
             value = self.do_one(mine, [*before, mine.asked], holds, starred)
             if value is LEFT:

@@ -44,7 +44,7 @@ def rate_of(learn: Value) -> float | None:
 def is_share(value: Value) -> bool:
     """Whether VALUE is a number between 0 and 1."""
     is_real = value.__class__ in (int, float) or value.__class__.__name__ == "Ratio"
-    return is_real and 0 <= value <= 1
+    return bool(is_real and 0 <= value <= 1)
 
 
 @function("(reinforce reward)", SCS)
