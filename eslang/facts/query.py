@@ -7,11 +7,12 @@ when a rule or a declaration changes what they rest on.
 
 from __future__ import annotations
 
+from eslang.base.failure import WRONG_NUMBER_OF_ARGUMENTS, Failure
 from eslang.base.hints import TYPE_CHECKING, Callable
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import NOTHING_GIVEN, Atom, Constants, Given, Tokens, quick_tokens, read_query
 from eslang.facts.relations import Relation
-from eslang.facts.rules import Name, Rule, Rules
+from eslang.facts.rules import Name, Rule, Rules, read_rule
 from eslang.facts.store import MANY, Store
 from eslang.facts.watching import Reads, woken_by_rules
 
@@ -41,6 +42,7 @@ class Facts(Store):
         arities = self.declared.setdefault(name, [])
         if arity is not None and arity not in arities:
             arities.append(arity)
+            self._forget_unused(name)
         self.became_relation(name)
 
     def declare_property(self, name: Symbol) -> None:
@@ -48,6 +50,11 @@ class Facts(Store):
         self.declared.setdefault(name, [])
         super().declare_property(name)
         self._forget_plans()
+
+    def relation(self, name: Symbol, arity: int) -> Relation:
+        """The relation of that name and arity; fails if NAME was declared with others only."""
+        self._check_arity(name, arity)
+        return super().relation(name, arity)
 
     def is_relation(self, name: Symbol) -> bool:
         """Whether NAME was declared, or has rules, or has or had facts."""
@@ -70,10 +77,13 @@ class Facts(Store):
 
     def define_rule(self, head: Value, body: Value) -> bool:
         """Derive HEAD from the goals in the list BODY, too; false if that is known."""
-        rule = self.rules.define(head, body)
-        if rule is not None:
+        rule = read_rule(head, body)
+        for name in (rule.name, *(need.name for need in rule.needs if not self.is_test(need.name[0]))):
+            self._check_arity(*name)
+        is_new = self.rules.define(rule)
+        if is_new:
             self._rules_changed([rule.name])
-        return rule is not None
+        return is_new
 
     def forget_rules(self, name: Symbol) -> bool:
         """Derive no facts of NAME any more; false if there were no rules."""
@@ -154,6 +164,28 @@ class Facts(Store):
     def _rules_changed(self, names: list[Name]) -> None:
         """Forget the plans, and wake who asked these relations."""
         self._forget_plans()
-        woken = dict.fromkeys(watch for name in names for watch in woken_by_rules(self.relation(*name)))
+        asked = [self.relations[name] for name in names if name in self.relations]
+        woken = dict.fromkeys(watch for relation in asked for watch in woken_by_rules(relation))
         self._calls += [(watch.wake, None) for watch in woken]
         self._deliver()
+
+    def _check_arity(self, name: Symbol, arity: int) -> None:
+        """Fail if NAME was declared with other arities only, unless facts or rules were there before."""
+        arities = self.declared.get(name)
+        if arities and arity not in arities and not self._is_used(name, arity):
+            expected = " or ".join(map(str, sorted(arities)))
+            plural = "" if arities == [1] else "s"
+            message = f"takes {expected} argument{plural} but {arity} {'was' if arity == 1 else 'were'} given"
+            raise Failure(WRONG_NUMBER_OF_ARGUMENTS, name, message)
+
+    def _is_used(self, name: Symbol, arity: int) -> bool:
+        return (name, arity) in self.relations or (name, arity) in self.rules.by_name
+
+    def _forget_unused(self, name: Symbol) -> None:
+        """Forget relations called NAME that are only spoken of, with other arities than declared."""
+        for relation in self.named(name):
+            is_used = relation.rows or relation.watched
+            if not is_used and relation.arity not in self.declared[name]:
+                del self.relations[name, relation.arity]
+        self._forget_plans()
+        self._patterns.clear()
