@@ -84,6 +84,7 @@ FILES = [
     "widgets",
     "recovery",
     "spacecraft",
+    "configuration",
     "testing",
 ]
 
