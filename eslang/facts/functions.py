@@ -11,7 +11,7 @@ from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.symbols import Symbol
 from eslang.facts.goals import Constants
 from eslang.facts.procs import Clause, Proc, reached_from
-from eslang.facts.relations import EMPTY, Accesses
+from eslang.facts.relations import EMPTY
 from eslang.facts.source import (
     TABLE_NAMES,
     TABLE_OPENING,
@@ -24,11 +24,13 @@ from eslang.facts.source import (
 from eslang.facts.steps import Look, Steps
 from eslang.facts.tables import Tables
 from eslang.facts.terms import DIRECT, value_of
+from eslang.facts.views import Accesses, Pace, View
 
 ALL, FIRST, LAZY = "all", "first", "lazy"
 GENERATES = ("yield from ()",)  # makes a function a generator, whatever else stands in it
 FOLLOW = ("yield from {}",)
-FACTORY = "def make(readers, call, EMPTY, DIRECT, value_of, Tables, constants, objects):"
+LOOP = "for row in rows if rows.__class__ is tuple else paced(rows):"
+FACTORY = "def make(view, call, paced, EMPTY, DIRECT, value_of, Tables, constants, objects):"
 
 
 class Question(NamedTuple):
@@ -45,7 +47,7 @@ class Question(NamedTuple):
 class Compiled(NamedTuple):
     """The functions of a query, compiled, and what they read."""
 
-    make: Callable[[list[Any], Any], Callable[..., Any]]  # readers, call → the function
+    make: Callable[[View, Any, Pace], Callable[..., Any]]  # a view, call, pauses → the function
     accesses: Accesses
     text: str
 
@@ -63,8 +65,8 @@ def compile_query(question: Question, kind: str) -> Compiled:
     outer = names["make"]
     fixed = (EMPTY, DIRECT, value_of, Tables, question.constants, source.objects)
 
-    def make(readers: list[Any], call: Any) -> Callable[..., Any]:
-        return outer(readers, call, *fixed)  # type: ignore[no-any-return]
+    def make(view: View, call: Any, pace: Pace) -> Callable[..., Any]:
+        return outer(view, call, pace.rows, *fixed)  # type: ignore[no-any-return]
 
     return Compiled(make, Accesses(source.accesses), text)
 
@@ -72,12 +74,15 @@ def compile_query(question: Question, kind: str) -> Compiled:
 def _factory(source: Source, question: Question, procs: list[Proc], main: str) -> str:
     """The text of the function that makes all others: what they share are its variables."""
     lines = [FACTORY]
-    lines += [f"    {name} = readers[{number}]" for number, name in enumerate(source.accesses.values())]
+    if source.accesses:
+        names = ", ".join(source.accesses.values())
+        lines += [f"    {names}, = view.readers()", "    def use(readers):"]
+        lines += [f"        nonlocal {names}", f"        {names}, = readers", "    view.use = use"]
     lines += [f"    o{number} = objects[{number}]" for number in range(len(source.objects))]
     inner = range(question.places, len(question.constants))
     lines += [f"    c{number} = constants[{number}]" for number in inner]
     if any(proc.circle for proc in procs):
-        lines += ["    memo = {}", "    tables = Tables()"]
+        lines += ["    memo = {}", "    tables = Tables(paced)"]
         lines += ["    complete = tables.complete", "    demand = tables.demand"]
     for text in source.functions:
         lines += ["    " + line for line in text.split("\n")]
@@ -158,8 +163,8 @@ def _stored(source: Source, proc: Proc, keep: list[str]) -> list[str]:
     if len(keys) == proc.relation.arity:
         return [f"row = {tuple_of(keys)}", f"if {access}(row):", *inner]
     if not keys:
-        return [f"for row in {access}():", *inner]
-    return [f"for row in {access}({keys[0] if len(keys) == 1 else tuple_of(keys)}, EMPTY):", *inner]
+        return [f"for row in paced({access}()):", *inner]
+    return [f"rows = {access}({keys[0] if len(keys) == 1 else tuple_of(keys)}, EMPTY)", LOOP, *inner]
 
 
 def _clause(
@@ -222,7 +227,7 @@ def _linear(source: Source, proc: Proc) -> None:
         inner += _clause(source, proc, shortened, base, save)
     lines = [f"root = {tuple_of(roots)}", f"have = memo.get(({proc.number}, root))"]
     lines += ["if have is not None:", "    yield from have", "    return"]
-    lines += ["have = {}", "asked = {root: None}", "agenda = [root]", "for key in agenda:"]
+    lines += ["have = {}", "asked = {root: None}", "agenda = [root]", "for key in paced(agenda):"]
     lines += ["    " + line for line in inner]
     lines += [f"memo[{proc.number}, root] = have"]
     source.add(f"def p{proc.number}({', '.join(roots)}):", [*lines, *GENERATES])

@@ -14,6 +14,7 @@ from eslang.facts.goals import NOTHING_GIVEN, Atom, Constants, Given, Tokens, qu
 from eslang.facts.relations import Relation
 from eslang.facts.rules import Name, Rule, Rules, read_rule
 from eslang.facts.store import MANY, Store
+from eslang.facts.views import Pauses
 from eslang.facts.watching import Reads, woken_by_rules
 
 if TYPE_CHECKING:  # what plans is loaded when something is asked for the first time
@@ -31,6 +32,7 @@ class Facts(Store):
         self.declared: dict[Symbol, list[int]] = {}  # names, and the arities they were declared with
         self.arguments: dict[Name, tuple[Symbol, ...]] = {}  # what they are called, where that is declared
         self.rules = Rules(self.is_test)
+        self.pauses = Pauses(lambda: self.is_telling)
         self.plans: dict[Tokens | None, Plan] = {}
         self.guesses: dict[Tokens, Plan] = {}  # plans with names that nobody defined yet
         self.guessed: dict[Symbol, None] = {}  # these names, while a plan is made
@@ -69,6 +71,11 @@ class Facts(Store):
         super().became_coded(relation)
         self._forget_plans()
 
+    def rows_moved(self) -> None:
+        """The rows of some relation are another dict from now on, which runs that are kept do not know."""
+        for plan in (*self.plans.values(), *self.guesses.values()):
+            plan.forget_runs()
+
     def became_relation(self, name: Symbol) -> None:
         """NAME is a relation from now on, even if plans took it for a function."""
         self.guesses.clear()
@@ -98,7 +105,13 @@ class Facts(Store):
         if plan is None:
             plan, constants = self.plan(query, given)
         run = plan.run_all
-        return plan.all(constants) if run is None else run(*constants)
+        if run is None:
+            return plan.all(constants)
+        try:
+            return run(*constants)  # type: ignore[no-any-return]
+        finally:
+            if self.pauses.left:
+                self.pauses.end(run)
 
     def first(self, query: Value, given: Given = NOTHING_GIVEN) -> Solution | None:
         """The first solution of QUERY; None if there is none."""
@@ -107,7 +120,13 @@ class Facts(Store):
         if plan is None:
             plan, constants = self.plan(query, given)
         run = plan.run_first
-        return plan.first(constants) if run is None else run(*constants)
+        if run is None:
+            return plan.first(constants)
+        try:
+            return run(*constants)  # type: ignore[no-any-return]
+        finally:
+            if self.pauses.left:
+                self.pauses.end(run)
 
     def solutions(self, query: Value, given: Given = NOTHING_GIVEN) -> Solutions:
         """The solutions that QUERY has now, found one at a time, whatever is changed meanwhile."""
@@ -141,7 +160,7 @@ class Facts(Store):
             self.guessed.clear()
             if len(self.plans) + len(self.guesses) >= MANY:
                 self._forget_plans()
-            plan = make_plan(self._resolve, self._rules_of, tokens, constants, self.call)
+            plan = make_plan(self._resolve, self._rules_of, tokens, constants, self.call, self.pauses)
             plan.guessed = tuple(self.guessed)
             (self.guesses if plan.guessed else self.plans)[tokens] = plan
         return plan, constants
