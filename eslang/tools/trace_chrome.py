@@ -23,6 +23,7 @@ INSTANTS = {
     "deadlock",
     "goal",
     "fact",
+    "lock",
     "period-missed",
     "run-stopped",
     "signal",

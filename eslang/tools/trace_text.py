@@ -35,6 +35,7 @@ SIGNS = {
     "signal": "▸",
     "checkpoint": "▸",
     "fact": "+",
+    "lock": "▪",
     "deadlock": "!",
 }
 WAITING, WORKING = "┊", "│"
