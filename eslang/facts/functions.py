@@ -1,13 +1,15 @@
 """The functions that answer a query, and those of the rules that it needs.
 
-A query has up to three: one gives all answers, one the first, and one is a
-generator that gives them one at a time. The rules' procs are generators, too,
-but for those that need their own answers: these fill tables.
+A query has up to four: two give all answers, as Python has them or as Lisp,
+one the first, and one is a generator that gives them one at a time. The rules'
+procs are generators, too, but for those that need their own answers: these
+fill tables.
 """
 
 from __future__ import annotations
 
 from eslang.base.hints import Any, Callable, NamedTuple
+from eslang.base.lists import Cons, from_items
 from eslang.base.symbols import Symbol
 from eslang.facts.goals import Constants
 from eslang.facts.procs import Clause, Proc, reached_from
@@ -26,11 +28,12 @@ from eslang.facts.tables import Tables
 from eslang.facts.terms import DIRECT, value_of
 from eslang.facts.views import Accesses, Pace, View
 
-ALL, FIRST, LAZY = "all", "first", "lazy"
+ALL, FIRST, LAZY, ALISTS = "all", "first", "lazy", "alists"
 GENERATES = ("yield from ()",)  # makes a function a generator, whatever else stands in it
 FOLLOW = ("yield from {}",)
 LOOP = "for row in rows if rows.__class__ is tuple else paced(rows):"
-FACTORY = "def make(view, call, paced, EMPTY, DIRECT, value_of, Tables, constants, objects):"
+SHARED = "EMPTY, DIRECT, value_of, Tables, Cons, new, from_items"  # by all queries
+FACTORY = f"def make(view, call, paced, left, end, constants, objects, {SHARED}):"
 
 
 class Question(NamedTuple):
@@ -47,7 +50,7 @@ class Question(NamedTuple):
 class Compiled(NamedTuple):
     """The functions of a query, compiled, and what they read."""
 
-    make: Callable[[View, Any, Pace], Callable[..., Any]]  # a view, call, pauses → the function
+    make: Callable[[View, Any, Pace], Callable[..., Any]]  # a view, call, a pace → the function
     accesses: Accesses
     text: str
 
@@ -63,10 +66,20 @@ def compile_query(question: Question, kind: str) -> Compiled:
     names: dict[str, Any] = {}
     exec(compile(text, "<query>", "exec"), names)
     outer = names["make"]
-    fixed = (EMPTY, DIRECT, value_of, Tables, question.constants, source.objects)
+    fixed = (
+        question.constants,
+        source.objects,
+        EMPTY,
+        DIRECT,
+        value_of,
+        Tables,
+        Cons,
+        object.__new__,
+        from_items,
+    )
 
     def make(view: View, call: Any, pace: Pace) -> Callable[..., Any]:
-        return outer(view, call, pace.rows, *fixed)  # type: ignore[no-any-return]
+        return outer(view, call, pace.rows, pace.pauses.left, pace.pauses.end, *fixed)  # type: ignore[no-any-return]
 
     return Compiled(make, Accesses(source.accesses), text)
 
@@ -100,21 +113,30 @@ def _main(source: Source, question: Question, kind: str) -> str:
     names = (*(("seen",) if question.distinct and kind != FIRST else ()), *constants)
 
     def finish(scope: Scope) -> list[str]:
-        told = [each for each in question.variables if each in scope]
-        pairs = [f"{source.object(each)}: {source.value(scope[each])}" for each in told]
-        solution = "{" + ", ".join(pairs) + "}"
-        if kind == FIRST:
-            return [f"return {solution}"]
-        give = f"yield {solution}" if kind == LAZY else f"out.append({solution})"
-        if not question.distinct:
-            return [give]
+        told = {
+            source.object(each): source.value(scope[each]) for each in question.variables if each in scope
+        }
+        if kind == ALISTS:
+            give = [*_alist(told), "out.append(alist)"]
+        else:
+            solution = "{" + ", ".join(f"{name}: {value}" for name, value in told.items()) + "}"
+            give = [
+                {FIRST: "return {}", LAZY: "yield {}", ALL: "out.append({})"}[kind].replace("{}", solution)
+            ]
+        if not question.distinct or kind == FIRST:
+            return give
         mark = tuple_of([scope.get(each, "EMPTY") for each in question.variables])
-        return [f"mark = {mark}", "if mark not in seen:", "    seen.add(mark)", f"    {give}"]
+        return [
+            f"mark = {mark}",
+            "if mark not in seen:",
+            "    seen.add(mark)",
+            *("    " + each for each in give),
+        ]
 
     lines = ["seen = set()"] if names != constants else []
-    if kind == ALL:
+    if kind in (ALL, ALISTS):
         sink = Sink(finish, ("out", *names), ("{}",))
-        lines, ending = ["out = []", *lines], "return out"
+        lines, ending = ["out = []", *lines], "return out" if kind == ALL else "return from_items(out)"
     elif kind == FIRST:
         sink = Sink(
             finish, names, ("found = {}", "if found is not None:", "    return found"), ("return None",)
@@ -126,8 +148,21 @@ def _main(source: Source, question: Question, kind: str) -> str:
     body = Body(source, sink, constants)
     body.lines += lines
     body.emit(question.steps, dict(question.given), 0)
-    source.add(f"def main({', '.join(constants)}):", [*body.lines, ending])
+    whole = [*body.lines, ending]
+    if kind != LAZY:
+        whole = ["try:", *("    " + line for line in whole), "finally:", "    if left:", "        end(main)"]
+    source.add(f"def main({', '.join(constants)}):", whole)
     return "main"
+
+
+def _alist(told: dict[str, str]) -> list[str]:
+    """The lines that make the alist of what is told; Cons itself would take half as long again."""
+    lines, rest = [], "None"
+    for number, (name, value) in reversed(list(enumerate(told.items()))):
+        lines += ["pair = new(Cons)", f"pair.car = {name}", f"pair.cdr = {value}"]
+        lines += [f"l{number} = new(Cons)", f"l{number}.car = pair", f"l{number}.cdr = {rest}"]
+        rest = f"l{number}"
+    return [*lines, f"alist = {rest}"]
 
 
 def _proc(source: Source, proc: Proc) -> None:

@@ -13,7 +13,7 @@ from eslang.base.calls import depth
 from eslang.base.hints import Any, Callable, Iterator
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.explain import Explanation, explain
-from eslang.facts.functions import ALL, FIRST, LAZY, Compiled, Question, compile_query
+from eslang.facts.functions import ALISTS, ALL, FIRST, LAZY, Compiled, Question, compile_query
 from eslang.facts.goals import Atom, Constants, Tokens, shape_of
 from eslang.facts.procs import Planner, reached_from, tests
 from eslang.facts.relations import Relation
@@ -37,6 +37,7 @@ class Plan:
         "is_fresh",
         "pauses",
         "question",
+        "run_alists",
         "run_all",
         "run_first",
         "tests",
@@ -57,9 +58,8 @@ class Plan:
         self.call = call
         self.pauses = pauses
         self.compiled: dict[str, Compiled] = {}
-        self.run_all: Callable[..., Any] | None = (
-            None  # what runs on the facts as they are, if it can be kept
-        )
+        self.run_all: Callable[..., Any] | None = None  # what runs on the facts as they are, if it is kept
+        self.run_alists: Callable[..., Any] | None = None
         self.run_first: Callable[..., Any] | None = None
 
     def functions(self, kind: str) -> Compiled:
@@ -78,12 +78,12 @@ class Plan:
             self.forget_runs()  # what paused is for the query that it answers
             self.pauses.leave(run, view)
 
-        run = compiled.make(view, self.call, Pace(pause))
+        run = compiled.make(view, self.call, Pace(self.pauses, pause))
         return run
 
     def forget_runs(self) -> None:
         """What was kept to run again is not to be."""
-        self.run_all = self.run_first = None
+        self.run_all = self.run_alists = self.run_first = None
 
     def all(self, constants: Constants) -> list[Solution]:
         """All solutions."""
@@ -91,7 +91,15 @@ class Plan:
             return self._on_view(ALL, constants)  # type: ignore[no-any-return]
         run = self.runner(ALL)
         self.run_all = None if self.is_fresh else run
-        return self._run(run, constants)  # type: ignore[no-any-return]
+        return run(*constants)  # type: ignore[no-any-return]
+
+    def alists(self, constants: Constants) -> Value:
+        """All solutions, as a list of alists."""
+        if self.tests:
+            return self._on_view(ALISTS, constants)
+        run = self.runner(ALISTS)
+        self.run_alists = None if self.is_fresh else run
+        return run(*constants)
 
     def first(self, constants: Constants) -> Solution | None:
         """The first solution; None if there is none."""
@@ -99,13 +107,7 @@ class Plan:
             return self._on_view(FIRST, constants)  # type: ignore[no-any-return]
         run = self.runner(FIRST)
         self.run_first = None if self.is_fresh else run
-        return self._run(run, constants)  # type: ignore[no-any-return]
-
-    def _run(self, run: Callable[..., Any], constants: Constants) -> Any:
-        try:
-            return run(*constants)
-        finally:
-            self.pauses.end(run)
+        return run(*constants)  # type: ignore[no-any-return]
 
     def explain(self, constants: Constants) -> Explanation:
         """How this plan finds its answers."""
@@ -118,10 +120,10 @@ class Plan:
         if depth[0] > DEEPEST:
             raise RecursionError("too many queries that ask Lisp inside one another")
         if reads is None:
-            view, pace = View(compiled.accesses), Pace(self.pauses.between)
+            view, pace = View(compiled.accesses), Pace(self.pauses, self.pauses.between)
         else:
             view = View(compiled.accesses, partial(reads.through, compiled.accesses))
-            pace = Pace(self.pauses.look)  # a change in a pause would not be noted
+            pace = Pace(self.pauses, self.pauses.look)  # a change in a pause would not be noted
         view.open()
         depth[0] += 1
         try:
@@ -135,7 +137,9 @@ class Plan:
         compiled = self.functions(LAZY)
         view = View(compiled.accesses)
         view.open()
-        return Solutions(view, lambda: compiled.make(view, self.call, Pace(self.pauses.between))(*constants))
+        return Solutions(
+            view, lambda: compiled.make(view, self.call, Pace(self.pauses, self.pauses.between))(*constants)
+        )
 
     def noting(self, constants: Constants, reads: Reads) -> Solution | None:
         """The first solution, and in READS what was read to find it."""

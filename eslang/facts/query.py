@@ -105,13 +105,16 @@ class Facts(Store):
         if plan is None:
             plan, constants = self.plan(query, given)
         run = plan.run_all
-        if run is None:
-            return plan.all(constants)
-        try:
-            return run(*constants)  # type: ignore[no-any-return]
-        finally:
-            if self.pauses.left:
-                self.pauses.end(run)
+        return plan.all(constants) if run is None else run(*constants)
+
+    def alists(self, query: Value, complete: Callable[[Value], Value]) -> Value:
+        """All solutions of QUERY, as Lisp has them; COMPLETE puts in what stands for something else."""
+        constants: Constants = []
+        plan = self.plans.get(quick_tokens(query, constants))
+        if plan is None:
+            plan, constants = self.plan(complete(query))
+        run = plan.run_alists
+        return plan.alists(constants) if run is None else run(*constants)
 
     def first(self, query: Value, given: Given = NOTHING_GIVEN) -> Solution | None:
         """The first solution of QUERY; None if there is none."""
@@ -120,13 +123,7 @@ class Facts(Store):
         if plan is None:
             plan, constants = self.plan(query, given)
         run = plan.run_first
-        if run is None:
-            return plan.first(constants)
-        try:
-            return run(*constants)  # type: ignore[no-any-return]
-        finally:
-            if self.pauses.left:
-                self.pauses.end(run)
+        return plan.first(constants) if run is None else run(*constants)
 
     def solutions(self, query: Value, given: Given = NOTHING_GIVEN) -> Solutions:
         """The solutions that QUERY has now, found one at a time, whatever is changed meanwhile."""

@@ -104,9 +104,10 @@ def _keeping_reader(access: Access, now: Callable[..., Any], kept: dict[Code, An
 class Pace:
     """The pauses of one run: rows of large buckets are counted, and now and then others have their turn."""
 
-    __slots__ = ("pause", "ticks")
+    __slots__ = ("pause", "pauses", "ticks")
 
-    def __init__(self, pause: Callable[[], None]) -> None:
+    def __init__(self, pauses: Pauses, pause: Callable[[], None]) -> None:
+        self.pauses = pauses
         self.pause = pause
         self.ticks: Iterator[bool] | None = None
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from eslang.base.failure import type_error
 from eslang.base.hints import Any
-from eslang.base.lists import Cons, from_items, items, lisp_list
+from eslang.base.lists import Cons, items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.base.text import String
@@ -105,8 +105,7 @@ def db_query(query: Value) -> Value:
 
     Source: ESL §5; ARM §2. Alists: language reference §5.
     """
-    solutions = running.session.database.all(in_force(query))
-    return from_items([from_items([Cons(*pair) for pair in each.items()]) for each in solutions])
+    return running.session.database.alists(query, in_force)
 
 
 # --- declarations --------------------------------------------------------------------
