@@ -27,8 +27,8 @@ def wanted(text: str) -> Property:
 class World:
     """Properties with values, and an interpreter whose tasks lock them."""
 
-    def __init__(self, **given: Any) -> None:
-        self.interp = Interpreter(clock="virtual", output=StringIO(), **given)
+    def __init__(self, interp: Interpreter | None = None, **given: Any) -> None:
+        self.interp = interp or Interpreter(clock="virtual", output=StringIO(), **given)
         self.scheduler = self.interp.scheduler
         self.values: dict[str, str] = {}
         self.watches: dict[str, dict[object, Callable[[], None]]] = {}
