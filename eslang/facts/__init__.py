@@ -3,7 +3,7 @@
 In reading order: unify, terms, relations, views, properties, watching (what is
 held, who reads it, and who hears of it); goals, nested, patterns (what is
 asked); rules, transitive, steps, procs (how an answer is found); source,
-tables, functions (the Python that finds it); journal, store, plans, explain,
+tables, answers, functions (the Python that finds it); journal, store, plans, explain,
 query (the database as a whole).
 
 This room must not know what a task is, what a form means, or how Lisp is

@@ -8,9 +8,10 @@ fill tables.
 
 from __future__ import annotations
 
-from eslang.base.hints import Any, Callable, NamedTuple
-from eslang.base.lists import Cons, from_items
+from eslang.base.hints import Any, Callable, Iterable, NamedTuple
+from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol
+from eslang.facts.answers import FIRST, FOLLOW, GENERATES, LAZY, WAYS
 from eslang.facts.goals import Constants
 from eslang.facts.procs import Clause, Proc, reached_from
 from eslang.facts.relations import EMPTY
@@ -28,11 +29,8 @@ from eslang.facts.tables import Tables
 from eslang.facts.terms import DIRECT, value_of
 from eslang.facts.views import Accesses, Pace, View
 
-ALL, FIRST, LAZY, ALISTS = "all", "first", "lazy", "alists"
-GENERATES = ("yield from ()",)  # makes a function a generator, whatever else stands in it
-FOLLOW = ("yield from {}",)
 LOOP = "for row in rows if rows.__class__ is tuple else paced(rows):"
-SHARED = "EMPTY, DIRECT, value_of, Tables, Cons, new, from_items"  # by all queries
+SHARED = "EMPTY, DIRECT, value_of, Tables, Cons, new"  # by all queries
 FACTORY = f"def make(view, call, paced, left, end, constants, objects, {SHARED}):"
 
 
@@ -75,7 +73,6 @@ def compile_query(question: Question, kind: str) -> Compiled:
         Tables,
         Cons,
         object.__new__,
-        from_items,
     )
 
     def make(view: View, call: Any, pace: Pace) -> Callable[..., Any]:
@@ -109,60 +106,31 @@ def _is_tabled(proc: Proc) -> bool:
 
 def _main(source: Source, question: Question, kind: str) -> str:
     """The query's own function; its name."""
+    way = WAYS[kind]
     constants = tuple(f"c{number}" for number in range(question.places))
-    names = (*(("seen",) if question.distinct and kind != FIRST else ()), *constants)
+    is_sifted = question.distinct and kind != FIRST
 
     def finish(scope: Scope) -> list[str]:
-        told = {
-            source.object(each): source.value(scope[each]) for each in question.variables if each in scope
-        }
-        if kind == ALISTS:
-            give = [*_alist(told), "out.append(alist)"]
-        else:
-            solution = "{" + ", ".join(f"{name}: {value}" for name, value in told.items()) + "}"
-            give = [
-                {FIRST: "return {}", LAZY: "yield {}", ALL: "out.append({})"}[kind].replace("{}", solution)
-            ]
-        if not question.distinct or kind == FIRST:
+        told = [each for each in question.variables if each in scope]
+        give = way.give({source.object(each): source.value(scope[each]) for each in told})
+        if not is_sifted:
             return give
         mark = tuple_of([scope.get(each, "EMPTY") for each in question.variables])
-        return [
-            f"mark = {mark}",
-            "if mark not in seen:",
-            "    seen.add(mark)",
-            *("    " + each for each in give),
-        ]
+        return [f"mark = {mark}", "if mark not in seen:", "    seen.add(mark)", *_inner(give)]
 
-    lines = ["seen = set()"] if names != constants else []
-    if kind in (ALL, ALISTS):
-        sink = Sink(finish, ("out", *names), ("{}",))
-        lines, ending = ["out = []", *lines], "return out" if kind == ALL else "return from_items(out)"
-    elif kind == FIRST:
-        sink = Sink(
-            finish, names, ("found = {}", "if found is not None:", "    return found"), ("return None",)
-        )
-        ending = "return None"
-    else:
-        sink = Sink(finish, names, FOLLOW, GENERATES)
-        ending = GENERATES[0]
-    body = Body(source, sink, constants)
-    body.lines += lines
+    names = (*way.carried, *(("seen",) if is_sifted else ()), *constants)
+    body = Body(source, Sink(finish, names, way.onward, way.ending), constants)
+    body.lines += [*way.begin, *(("seen = set()",) if is_sifted else ())]
     body.emit(question.steps, dict(question.given), 0)
-    whole = [*body.lines, ending]
+    lines = [*body.lines, *way.end]
     if kind != LAZY:
-        whole = ["try:", *("    " + line for line in whole), "finally:", "    if left:", "        end(main)"]
-    source.add(f"def main({', '.join(constants)}):", whole)
+        lines = ["try:", *_inner(lines), "finally:", "    if left:", "        end(main)"]
+    source.add(f"def main({', '.join(constants)}):", lines)
     return "main"
 
 
-def _alist(told: dict[str, str]) -> list[str]:
-    """The lines that make the alist of what is told; Cons itself would take half as long again."""
-    lines, rest = [], "None"
-    for number, (name, value) in reversed(list(enumerate(told.items()))):
-        lines += ["pair = new(Cons)", f"pair.car = {name}", f"pair.cdr = {value}"]
-        lines += [f"l{number} = new(Cons)", f"l{number}.car = pair", f"l{number}.cdr = {rest}"]
-        rest = f"l{number}"
-    return [*lines, f"alist = {rest}"]
+def _inner(lines: Iterable[str]) -> list[str]:
+    return ["    " + line for line in lines]
 
 
 def _proc(source: Source, proc: Proc) -> None:

@@ -12,8 +12,9 @@ from functools import partial
 from eslang.base.calls import depth
 from eslang.base.hints import Any, Callable, Iterator
 from eslang.base.symbols import Symbol, Value
+from eslang.facts.answers import ALISTS, ALL, FIRST, LAZY
 from eslang.facts.explain import Explanation, explain
-from eslang.facts.functions import ALISTS, ALL, FIRST, LAZY, Compiled, Question, compile_query
+from eslang.facts.functions import Compiled, Question, compile_query
 from eslang.facts.goals import Atom, Constants, Tokens, shape_of
 from eslang.facts.procs import Planner, reached_from, tests
 from eslang.facts.relations import Relation
