@@ -37,6 +37,7 @@ from eslang.runtime.chance import make_chance
 from eslang.runtime.clock import make_clock
 from eslang.runtime.failures import Causes, Dynamic, run_apart
 from eslang.runtime.hooks import Hooks, Listener
+from eslang.runtime.resources import Resource
 from eslang.runtime.runs import Runs
 from eslang.texts import Texts
 
@@ -92,6 +93,7 @@ class Interpreter:
         self.dynamic = Dynamic()  # of the task whose turn it is
         self.causes = Causes()
         self.goals = Patterns()
+        self.resources: dict[Symbol, Resource] = {}
         self.runs = Runs(self, shuffled=shuffle, choices=choices, is_open=outside)
         self.scheduler = self.runs.scheduler
         self.ticks = self.scheduler.ticks

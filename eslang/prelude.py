@@ -63,6 +63,7 @@ ROOMS = [
     "eslang.constructs.esl.task_nets",
     "eslang.constructs.esl.guardians",
     "eslang.constructs.esl.timing",
+    "eslang.constructs.esl.resources",
     "eslang.constructs.esl.goals",
     "eslang.constructs.esl.prompt",
     "eslang.constructs.esl.doubles",

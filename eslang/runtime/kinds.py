@@ -234,6 +234,18 @@ TABLE = (
         ),
     ),
     Kind(
+        "resource",
+        "something becomes of a claim on a resource",
+        HERE,
+        (
+            Part("change", "str", "`granted`, `released`, `refused`; `preempted`: its holder is to give way"),
+            Part("resource", "Symbol", "the resource"),
+            Part("amount", "number", "how much is claimed"),
+            Part("of", "Task", "whose claim it is"),
+            Part("left", "number", "how much is left now"),
+        ),
+    ),
+    Kind(
         "run-stopped",
         "the run is to end: Ctrl-C, the time limit, QUIT",
         HERE,

@@ -24,6 +24,7 @@ INSTANTS = {
     "goal",
     "fact",
     "lock",
+    "resource",
     "period-missed",
     "run-stopped",
     "signal",

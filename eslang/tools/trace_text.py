@@ -36,6 +36,7 @@ SIGNS = {
     "checkpoint": "▸",
     "fact": "+",
     "lock": "▪",
+    "resource": "▪",
     "deadlock": "!",
 }
 WAITING, WORKING = "┊", "│"

@@ -16,6 +16,7 @@ SUBJECTS = {
     "abort": "of",
     "interrupt-sent": "to",
     "deadlock": "to",
+    "resource": "of",
 }
 ROLES = {"member": "", "main": "", "guardian": ", a guardian", "spawned": ", spawned"}
 WHY_ABORTED = {
@@ -95,6 +96,8 @@ def waited_for(told: dict[str, Any]) -> str:
         return f"the end{'s' if len(names) > 1 else ''} of {listed(names)}"
     if on == "condition":
         return f"the condition {value_text(of)}"
+    if on == "resource" and isinstance(of, list) and len(of) == 2:
+        return f"{value_text(of[1])} of {value_text(of[0])}"
     if on == "period":
         return f"the next period, {seconds(of)}"
     if on == "sleep":
@@ -187,6 +190,17 @@ def _lock(told: dict[str, Any]) -> str:
     return sentences.get(told["change"], f"{told['change']} {locked}")
 
 
+def _resource(told: dict[str, Any]) -> str:
+    claim, left = f"{told['amount']} of {told['resource']}", f"{told['left']} left"
+    sentences = {
+        "granted": f"has {claim} now, {left}",
+        "released": f"gives {claim} back, {left}",
+        "refused": f"cannot have {claim}, {left}",
+        "preempted": f"is to give {claim} back",
+    }
+    return sentences.get(told["change"], f"{told['change']} {claim}")
+
+
 def _deadlock(told: dict[str, Any]) -> str:
     return f"deadlock of {listed([each.get('task') for each in told['waiting']])}: nothing can wake them"
 
@@ -216,5 +230,6 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "goal": _goal,
     "fact": lambda told: f"{'asserts' if told['added'] else 'retracts'} {value_text(told['fact'])}",
     "lock": _lock,
+    "resource": _resource,
     "run-stopped": lambda told: f"the run is stopped: {told['reason']} (exit {told['code']})",
 }
