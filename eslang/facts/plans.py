@@ -163,34 +163,39 @@ def make_plan(
 class Solutions:
     """The solutions of a query as they were when it was entered; found when they are asked for.
 
-    Where a test fails or is left by a jump, the search is begun anew when the
-    next solution is wanted, on the same facts; what was told is not told again.
+    Where a test fails or is left by a jump, or waits while the next solution is
+    wanted again, the search is begun anew, on the same facts; what was told is
+    not told again.
     """
 
-    __slots__ = ("_begin", "_run", "_told", "_view")
+    __slots__ = ("_begin", "_run", "_searches", "_told", "_view")
 
     def __init__(self, view: View, begin: Callable[[], Iterator[Solution]]) -> None:
         self._view = view
         self._begin = begin
-        self._run: Iterator[Solution] | None = begin()
+        self._run: Iterator[Solution] | None = begin()  # none while it searches
+        self._searches = 0  # that are under way, one inside the other
         self._told = 0
 
     def __iter__(self) -> Iterator[Solution]:
         return self
 
     def __next__(self) -> Solution:
+        run, self._run = self._run, None
+        self._searches += 1
         try:
-            if self._run is None:
-                self._run = self._begin()
+            if run is None:
+                run = self._begin()
                 for _ in range(self._told):
-                    next(self._run)
-            found = next(self._run)
+                    next(run)
+            found = next(run)
         except StopIteration:
-            self.close()
+            if self._searches == 1:
+                self.close()
             raise
-        except BaseException:
-            self._run = None
-            raise
+        finally:
+            self._searches -= 1
+        self._run = run
         self._told += 1
         return found
 
