@@ -81,8 +81,9 @@ def resource_named(name: Value) -> Resource:
 
 @macro("(with-resource claim &body body)", ESL)
 def with_resource(form: Cons, environment: Any) -> Value:
-    """Run BODY while this task holds of a resource: (with-resource (NAME AMOUNT) . BODY).
+    """Run BODY while this task holds AMOUNT of a resource.
 
+    It is written (with-resource (NAME AMOUNT) . BODY).
     Who asks for more than is left waits: the more important before the less,
     and otherwise first come, first served. Before BODY may stand :priority and
     a number, 0 unless given. If holders that are less important stand in the
@@ -174,7 +175,9 @@ def consume(name: Value, amount: Value) -> Value:
 
 @function("(replenish name amount)", ESL)
 def replenish(name: Value, amount: Value) -> Value:
-    """Let there be AMOUNT more of the consumable resource NAME, up to its capacity.
+    """Let there be AMOUNT more of the consumable resource NAME.
+
+    There is never more than its capacity.
 
     Returns: how much is left.
     Fails:   :error if NAME is renewable, or no resource.
