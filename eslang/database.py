@@ -31,8 +31,13 @@ def make_database(session: Interpreter) -> Facts:
         place = place_here() if hooks.current() is not None else None
         hooks.tell("fact", place, added=change.added, fact=change.fact)
 
+    def look() -> None:
+        if session.ticks.pending is not None:
+            session.scheduler.safepoint()
+
     made = Facts(is_call, call_test)
     made.audience, made.tell = hooks.listeners, tell
+    made.pauses.give_way, made.pauses.look = session.scheduler.safepoint, look
     return made
 
 

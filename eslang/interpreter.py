@@ -37,6 +37,7 @@ from eslang.runtime.chance import make_chance
 from eslang.runtime.clock import make_clock
 from eslang.runtime.failures import Causes, Dynamic, run_apart
 from eslang.runtime.hooks import Hooks, Listener
+from eslang.runtime.resources import Resource
 from eslang.runtime.runs import Runs
 from eslang.texts import Texts
 
@@ -93,6 +94,7 @@ class Interpreter:
         self.causes = Causes()
         self.goals = Patterns()
         self.actions: set[Symbol] = set()  # of SCS: functions that end with an action
+        self.resources: dict[Symbol, Resource] = {}
         self.runs = Runs(self, shuffled=shuffle, choices=choices, is_open=outside)
         self.scheduler = self.runs.scheduler
         self.ticks = self.scheduler.ticks

@@ -68,6 +68,7 @@ ROOMS = [
     "eslang.constructs.scs.parallel",
     "eslang.constructs.esl.guardians",
     "eslang.constructs.esl.timing",
+    "eslang.constructs.esl.resources",
     "eslang.constructs.esl.goals",
     "eslang.constructs.esl.prompt",
     "eslang.constructs.esl.doubles",
@@ -88,6 +89,8 @@ FILES = [
     "tasks",
     "widgets",
     "recovery",
+    "spacecraft",
+    "configuration",
     "testing",
 ]
 

@@ -37,15 +37,16 @@ class StoreFile:
     def __init__(self, path: str) -> None:
         self.path = path
         self._process = os.getpid()
-        if not path or "\0" in path:
-            raise self.trouble("it is no name of a file")
-        place = os.path.abspath(path)
+        place = os.path.abspath(path) if path and "\0" not in path else ""
+        found = obstacle(place)
+        if found is not None:
+            raise self.trouble(found)
         try:
             self._connection = sqlite3.connect(
                 place, timeout=0, isolation_level=None, check_same_thread=False
             )
         except sqlite3.Error as error:
-            raise self.trouble(obstacle(place) or words_of(error)) from None
+            raise self.trouble(words_of(error)) from None
         try:
             self._open()
         except BaseException:
@@ -145,10 +146,19 @@ def words_of(error: sqlite3.Error) -> str:
     return known or str(error).lower()
 
 
-def obstacle(path: str) -> str | None:
-    """Why there can be no file at PATH, if that is plain to see."""
-    if os.path.isdir(path):
+def obstacle(place: str) -> str | None:
+    """Why there can be no file of facts at PLACE, if that is plain to see."""
+    folder = os.path.dirname(place)
+    if not place:
+        return "it is no name of a file"
+    if os.path.isdir(place):
         return "it is a folder"
-    if not os.path.isdir(os.path.dirname(path)):
+    if not os.path.isdir(folder):
         return "there is no such folder"
+    if os.path.exists(place) and not os.access(place, os.R_OK | os.W_OK):
+        return "it cannot be written"
+    if not os.access(folder, os.W_OK | os.X_OK):
+        return "its folder cannot be written"
+    if os.path.exists(place) and os.path.getsize(place) == 1:  # SQLite would take it for an empty one
+        return WORDS["SQLITE_NOTADB"]
     return None

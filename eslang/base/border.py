@@ -26,13 +26,15 @@ class Text(str):
 
 def to_python(value: Value, text: type[str] = str) -> Any:
     """VALUE for Python code, strings as TEXT; a dotted or circular list stays as it is."""
+    return _python_list(value, text, set()) if value.__class__ is Cons else _python_atom(value, text)
+
+
+def _python_atom(value: Value, text: type[str]) -> Any:
     kind = value.__class__
     if kind is String:
         return text(value.text)
     if value is T:
         return True
-    if kind is Cons:
-        return _python_list(value, text)
     if kind is Values:
         return to_python(primary(value), text)
     if kind.__name__ == "Ratio":
@@ -42,18 +44,30 @@ def to_python(value: Value, text: type[str] = str) -> Any:
     return value
 
 
-def _python_list(lst: Cons, text: type[str]) -> Any:
-    """A list as a Python list, built without recursion along the cdr."""
-    elements: list[Value] = []
+def _python_list(lst: Cons, text: type[str], above: set[int]) -> Any:
+    """A list as a Python list, built without recursion along the cdr; ABOVE are the conses that it is in."""
+    conses: list[Cons] = []
     seen: set[int] = set()
     rest: Value = lst
     while rest.__class__ is Cons:
-        if id(rest) in seen:
+        if id(rest) in seen or id(rest) in above:
             return lst
         seen.add(id(rest))
-        elements.append(rest.car)
+        conses.append(rest)
         rest = rest.cdr
-    return lst if rest is not None else [to_python(element, text) for element in elements]
+    if rest is not None:
+        return lst
+    elements: list[Any] = []
+    added: list[int] = []
+    for cons in conses:
+        if cons.car.__class__ is Cons:
+            added.append(id(cons))
+            above.add(id(cons))
+            elements.append(_python_list(cons.car, text, above))
+        else:
+            elements.append(_python_atom(cons.car, text))
+    above.difference_update(added)
+    return elements
 
 
 def leave(failure: Failure) -> None:

@@ -22,6 +22,7 @@ from eslang.runtime import failures
 
 if TYPE_CHECKING:
     from eslang.facts.plans import Solutions
+    from eslang.runtime.logical import Logical
     from eslang.runtime.tasks import Task
 
 LAMBDA, QUOTE = (Symbol.intern(name, CL) for name in ("LAMBDA", "QUOTE"))
@@ -36,12 +37,13 @@ MANY = 10_000  # pairs of a term that are looked through for #?x
 class Query:
     """One entrance of a WITH-QUERY-BINDINGS form."""
 
-    __slots__ = ("asked", "solutions", "task")
+    __slots__ = ("asked", "outer", "solutions", "task")
 
-    def __init__(self, asked: Value, solutions: Solutions, task: Task | None) -> None:
+    def __init__(self, asked: Value, solutions: Solutions, task: Task | None, outer: Logical) -> None:
         self.asked = asked
         self.solutions = solutions
         self.task = task
+        self.outer = outer  # what is in force around the form, and for the tests of the query
 
 
 @macro("(with-query-bindings query &body body)", ESL)
@@ -91,7 +93,7 @@ def run_with_query_bindings(query: Value, inherit: Value, body: Any) -> Value:
     outer = dynamic.logical
     asked = in_force(query)
     solutions = session.database.solutions(asked, outer.bindings if inherit is not None else {})
-    this = Query(asked, solutions, session.scheduler.current)
+    this = Query(asked, solutions, session.scheduler.current, outer)
     rounds: Iterator[None] | None = None
     try:
         found = next(solutions, None)
@@ -148,7 +150,12 @@ def next_bindings() -> Value:
             "NEXT-BINDINGS is called in a task that did not enter WITH-QUERY-BINDINGS: "
             f"its bindings belong to the task {query.task}"
         )
-    found = next(query.solutions, None)
+    dynamic, inner = session.dynamic, session.dynamic.logical
+    dynamic.logical = query.outer
+    try:
+        found = next(query.solutions, None)
+    finally:
+        dynamic.logical = inner
     if found is None:
         return failures.signal(Failure(NO_MORE_BINDINGS, query.asked), continuable=True)
     raise NextBindings(query, found)

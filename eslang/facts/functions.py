@@ -1,17 +1,20 @@
 """The functions that answer a query, and those of the rules that it needs.
 
-A query has up to three: one gives all answers, one the first, and one is a
-generator that gives them one at a time. The rules' procs are generators, too,
-but for those that need their own answers: these fill tables.
+A query has up to four: two give all answers, as Python has them or as Lisp,
+one the first, and one is a generator that gives them one at a time. The rules'
+procs are generators, too, but for those that need their own answers: these
+fill tables.
 """
 
 from __future__ import annotations
 
-from eslang.base.hints import Any, Callable, NamedTuple
+from eslang.base.hints import Any, Callable, Iterable, NamedTuple
+from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol
+from eslang.facts.answers import FIRST, FOLLOW, GENERATES, LAZY, WAYS
 from eslang.facts.goals import Constants
 from eslang.facts.procs import Clause, Proc, reached_from
-from eslang.facts.relations import EMPTY, Accesses
+from eslang.facts.relations import EMPTY
 from eslang.facts.source import (
     TABLE_NAMES,
     TABLE_OPENING,
@@ -24,11 +27,11 @@ from eslang.facts.source import (
 from eslang.facts.steps import Look, Steps
 from eslang.facts.tables import Tables
 from eslang.facts.terms import DIRECT, value_of
+from eslang.facts.views import Accesses, Pace, View
 
-ALL, FIRST, LAZY = "all", "first", "lazy"
-GENERATES = ("yield from ()",)  # makes a function a generator, whatever else stands in it
-FOLLOW = ("yield from {}",)
-FACTORY = "def make(readers, call, EMPTY, DIRECT, value_of, Tables, constants, objects):"
+LOOP = "for row in rows if rows.__class__ is tuple else paced(rows):"
+SHARED = "EMPTY, DIRECT, value_of, Tables, Cons, new"  # by all queries
+FACTORY = f"def make(view, call, paced, left, end, constants, objects, {SHARED}):"
 
 
 class Question(NamedTuple):
@@ -45,7 +48,7 @@ class Question(NamedTuple):
 class Compiled(NamedTuple):
     """The functions of a query, compiled, and what they read."""
 
-    make: Callable[[list[Any], Any], Callable[..., Any]]  # readers, call → the function
+    make: Callable[[View, Any, Pace], Callable[..., Any]]  # a view, call, a pace → the function
     accesses: Accesses
     text: str
 
@@ -61,10 +64,19 @@ def compile_query(question: Question, kind: str) -> Compiled:
     names: dict[str, Any] = {}
     exec(compile(text, "<query>", "exec"), names)
     outer = names["make"]
-    fixed = (EMPTY, DIRECT, value_of, Tables, question.constants, source.objects)
+    fixed = (
+        question.constants,
+        source.objects,
+        EMPTY,
+        DIRECT,
+        value_of,
+        Tables,
+        Cons,
+        object.__new__,
+    )
 
-    def make(readers: list[Any], call: Any) -> Callable[..., Any]:
-        return outer(readers, call, *fixed)  # type: ignore[no-any-return]
+    def make(view: View, call: Any, pace: Pace) -> Callable[..., Any]:
+        return outer(view, call, pace.rows, pace.pauses.left, pace.pauses.end, *fixed)  # type: ignore[no-any-return]
 
     return Compiled(make, Accesses(source.accesses), text)
 
@@ -72,12 +84,15 @@ def compile_query(question: Question, kind: str) -> Compiled:
 def _factory(source: Source, question: Question, procs: list[Proc], main: str) -> str:
     """The text of the function that makes all others: what they share are its variables."""
     lines = [FACTORY]
-    lines += [f"    {name} = readers[{number}]" for number, name in enumerate(source.accesses.values())]
+    if source.accesses:
+        names = ", ".join(source.accesses.values())
+        lines += [f"    {names}, = view.readers()", "    def use(readers):"]
+        lines += [f"        nonlocal {names}", f"        {names}, = readers", "    view.use = use"]
     lines += [f"    o{number} = objects[{number}]" for number in range(len(source.objects))]
     inner = range(question.places, len(question.constants))
     lines += [f"    c{number} = constants[{number}]" for number in inner]
     if any(proc.circle for proc in procs):
-        lines += ["    memo = {}", "    tables = Tables()"]
+        lines += ["    memo = {}", "    tables = Tables(paced)"]
         lines += ["    complete = tables.complete", "    demand = tables.demand"]
     for text in source.functions:
         lines += ["    " + line for line in text.split("\n")]
@@ -91,38 +106,31 @@ def _is_tabled(proc: Proc) -> bool:
 
 def _main(source: Source, question: Question, kind: str) -> str:
     """The query's own function; its name."""
+    way = WAYS[kind]
     constants = tuple(f"c{number}" for number in range(question.places))
-    names = (*(("seen",) if question.distinct and kind != FIRST else ()), *constants)
+    is_sifted = question.distinct and kind != FIRST
 
     def finish(scope: Scope) -> list[str]:
         told = [each for each in question.variables if each in scope]
-        pairs = [f"{source.object(each)}: {source.value(scope[each])}" for each in told]
-        solution = "{" + ", ".join(pairs) + "}"
-        if kind == FIRST:
-            return [f"return {solution}"]
-        give = f"yield {solution}" if kind == LAZY else f"out.append({solution})"
-        if not question.distinct:
-            return [give]
+        give = way.give({source.object(each): source.value(scope[each]) for each in told})
+        if not is_sifted:
+            return give
         mark = tuple_of([scope.get(each, "EMPTY") for each in question.variables])
-        return [f"mark = {mark}", "if mark not in seen:", "    seen.add(mark)", f"    {give}"]
+        return [f"mark = {mark}", "if mark not in seen:", "    seen.add(mark)", *_inner(give)]
 
-    lines = ["seen = set()"] if names != constants else []
-    if kind == ALL:
-        sink = Sink(finish, ("out", *names), ("{}",))
-        lines, ending = ["out = []", *lines], "return out"
-    elif kind == FIRST:
-        sink = Sink(
-            finish, names, ("found = {}", "if found is not None:", "    return found"), ("return None",)
-        )
-        ending = "return None"
-    else:
-        sink = Sink(finish, names, FOLLOW, GENERATES)
-        ending = GENERATES[0]
-    body = Body(source, sink, constants)
-    body.lines += lines
+    names = (*way.carried, *(("seen",) if is_sifted else ()), *constants)
+    body = Body(source, Sink(finish, names, way.onward, way.ending), constants)
+    body.lines += [*way.begin, *(("seen = set()",) if is_sifted else ())]
     body.emit(question.steps, dict(question.given), 0)
-    source.add(f"def main({', '.join(constants)}):", [*body.lines, ending])
+    lines = [*body.lines, *way.end]
+    if kind != LAZY:
+        lines = ["try:", *_inner(lines), "finally:", "    if left:", "        end(main)"]
+    source.add(f"def main({', '.join(constants)}):", lines)
     return "main"
+
+
+def _inner(lines: Iterable[str]) -> list[str]:
+    return ["    " + line for line in lines]
 
 
 def _proc(source: Source, proc: Proc) -> None:
@@ -158,8 +166,8 @@ def _stored(source: Source, proc: Proc, keep: list[str]) -> list[str]:
     if len(keys) == proc.relation.arity:
         return [f"row = {tuple_of(keys)}", f"if {access}(row):", *inner]
     if not keys:
-        return [f"for row in {access}():", *inner]
-    return [f"for row in {access}({keys[0] if len(keys) == 1 else tuple_of(keys)}, EMPTY):", *inner]
+        return [f"for row in paced({access}()):", *inner]
+    return [f"rows = {access}({keys[0] if len(keys) == 1 else tuple_of(keys)}, EMPTY)", LOOP, *inner]
 
 
 def _clause(
@@ -222,7 +230,7 @@ def _linear(source: Source, proc: Proc) -> None:
         inner += _clause(source, proc, shortened, base, save)
     lines = [f"root = {tuple_of(roots)}", f"have = memo.get(({proc.number}, root))"]
     lines += ["if have is not None:", "    yield from have", "    return"]
-    lines += ["have = {}", "asked = {root: None}", "agenda = [root]", "for key in agenda:"]
+    lines += ["have = {}", "asked = {root: None}", "agenda = [root]", "for key in paced(agenda):"]
     lines += ["    " + line for line in inner]
     lines += [f"memo[{proc.number}, root] = have"]
     source.add(f"def p{proc.number}({', '.join(roots)}):", [*lines, *GENERATES])

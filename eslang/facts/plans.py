@@ -7,16 +7,20 @@ a view, which is what a snapshot is.
 
 from __future__ import annotations
 
+from functools import partial
+
 from eslang.base.calls import depth
 from eslang.base.hints import Any, Callable, Iterator
 from eslang.base.symbols import Symbol, Value
+from eslang.facts.answers import ALISTS, ALL, FIRST, LAZY
 from eslang.facts.explain import Explanation, explain
-from eslang.facts.functions import ALL, FIRST, LAZY, Compiled, Question, compile_query
+from eslang.facts.functions import Compiled, Question, compile_query
 from eslang.facts.goals import Atom, Constants, Tokens, shape_of
 from eslang.facts.procs import Planner, reached_from, tests
-from eslang.facts.relations import Relation, View
+from eslang.facts.relations import Relation
 from eslang.facts.rules import Name, Rule
 from eslang.facts.steps import Steps, may_repeat
+from eslang.facts.views import Pace, Pauses, View
 from eslang.facts.watching import Reads
 
 Solution = dict[Symbol, Value]
@@ -27,9 +31,20 @@ Call = Callable[[Symbol, list[Value]], bool]
 class Plan:
     """How all queries of one shape are answered."""
 
-    __slots__ = ("call", "compiled", "guessed", "is_fresh", "question", "run_all", "run_first", "tests")
+    __slots__ = (
+        "call",
+        "compiled",
+        "guessed",
+        "is_fresh",
+        "pauses",
+        "question",
+        "run_alists",
+        "run_all",
+        "run_first",
+        "tests",
+    )
 
-    def __init__(self, planner: Planner, tokens: Tokens, call: Call) -> None:
+    def __init__(self, planner: Planner, tokens: Tokens, call: Call, pauses: Pauses) -> None:
         count = len(planner.constants)
         shape = shape_of(tokens)
         steps = planner.plan(shape)
@@ -42,10 +57,10 @@ class Plan:
         self.is_fresh = any(proc.circle for proc in procs)  # what it remembers is for one run only
         self.guessed: tuple[Symbol, ...] = ()  # names that nobody had defined when it was made
         self.call = call
+        self.pauses = pauses
         self.compiled: dict[str, Compiled] = {}
-        self.run_all: Callable[..., Any] | None = (
-            None  # what runs on the facts as they are, if it can be kept
-        )
+        self.run_all: Callable[..., Any] | None = None  # what runs on the facts as they are, if it is kept
+        self.run_alists: Callable[..., Any] | None = None
         self.run_first: Callable[..., Any] | None = None
 
     def functions(self, kind: str) -> Compiled:
@@ -56,9 +71,20 @@ class Plan:
         return found
 
     def runner(self, kind: str) -> Callable[..., Any]:
-        """What answers from the facts as they are; nothing may change them while it runs."""
+        """What answers from the facts as they are, for one query after another, until it pauses."""
         compiled = self.functions(kind)
-        return compiled.make(compiled.accesses.readers(), self.call)
+        view = View(compiled.accesses)
+
+        def pause() -> None:
+            self.forget_runs()  # what paused is for the query that it answers
+            self.pauses.leave(run, view)
+
+        run = compiled.make(view, self.call, Pace(self.pauses, pause))
+        return run
+
+    def forget_runs(self) -> None:
+        """What was kept to run again is not to be."""
+        self.run_all = self.run_alists = self.run_first = None
 
     def all(self, constants: Constants) -> list[Solution]:
         """All solutions."""
@@ -67,6 +93,14 @@ class Plan:
         run = self.runner(ALL)
         self.run_all = None if self.is_fresh else run
         return run(*constants)  # type: ignore[no-any-return]
+
+    def alists(self, constants: Constants) -> Value:
+        """All solutions, as a list of alists."""
+        if self.tests:
+            return self._on_view(ALISTS, constants)
+        run = self.runner(ALISTS)
+        self.run_alists = None if self.is_fresh else run
+        return run(*constants)
 
     def first(self, constants: Constants) -> Solution | None:
         """The first solution; None if there is none."""
@@ -82,18 +116,19 @@ class Plan:
         return explain(self.question, constants)
 
     def _on_view(self, kind: str, constants: Constants, reads: Reads | None = None) -> Any:
-        """What answers when Lisp is asked, too, which may change the facts."""
+        """The answer of what asks Lisp, too, which may change the facts; or of what notes its READS."""
         compiled = self.functions(kind)
-        view = View(compiled.accesses)
-        readers = view.readers
-        if reads is not None:
-            readers = reads.through(compiled.accesses, readers)
         if depth[0] > DEEPEST:
-            view.close()
             raise RecursionError("too many queries that ask Lisp inside one another")
+        if reads is None:
+            view, pace = View(compiled.accesses), Pace(self.pauses, self.pauses.between)
+        else:
+            view = View(compiled.accesses, partial(reads.through, compiled.accesses))
+            pace = Pace(self.pauses, self.pauses.look)  # a change in a pause would not be noted
+        view.open()
         depth[0] += 1
         try:
-            return compiled.make(readers, self.call)(*constants)
+            return compiled.make(view, self.call, pace)(*constants)
         finally:
             depth[0] -= 1
             view.close()
@@ -102,16 +137,15 @@ class Plan:
         """The solutions of this moment, one at a time."""
         compiled = self.functions(LAZY)
         view = View(compiled.accesses)
-        return Solutions(view, lambda: compiled.make(view.readers, self.call)(*constants))
+        view.open()
+        return Solutions(
+            view, lambda: compiled.make(view, self.call, Pace(self.pauses, self.pauses.between))(*constants)
+        )
 
     def noting(self, constants: Constants, reads: Reads) -> Solution | None:
         """The first solution, and in READS what was read to find it."""
         reads.asked_lisp = reads.asked_lisp or bool(self.tests)
-        if self.tests:
-            return self._on_view(FIRST, constants, reads)  # type: ignore[no-any-return]
-        compiled = self.functions(FIRST)
-        readers = reads.through(compiled.accesses, compiled.accesses.readers())
-        return compiled.make(readers, self.call)(*constants)  # type: ignore[no-any-return]
+        return self._on_view(FIRST, constants, reads)  # type: ignore[no-any-return]
 
 
 def make_plan(
@@ -120,42 +154,48 @@ def make_plan(
     tokens: Tokens,
     constants: Constants,
     call: Call,
+    pauses: Pauses,
 ) -> Plan:
     """The plan for a query; fails if the query is unsafe."""
-    return Plan(Planner(resolve, rules_of, constants), tokens, call)
+    return Plan(Planner(resolve, rules_of, constants), tokens, call, pauses)
 
 
 class Solutions:
     """The solutions of a query as they were when it was entered; found when they are asked for.
 
-    Where a test fails or is left by a jump, the search is begun anew when the
-    next solution is wanted, on the same facts; what was told is not told again.
+    Where a test fails or is left by a jump, or waits while the next solution is
+    wanted again, the search is begun anew, on the same facts; what was told is
+    not told again.
     """
 
-    __slots__ = ("_begin", "_run", "_told", "_view")
+    __slots__ = ("_begin", "_run", "_searches", "_told", "_view")
 
     def __init__(self, view: View, begin: Callable[[], Iterator[Solution]]) -> None:
         self._view = view
         self._begin = begin
-        self._run: Iterator[Solution] | None = begin()
+        self._run: Iterator[Solution] | None = begin()  # none while it searches
+        self._searches = 0  # that are under way, one inside the other
         self._told = 0
 
     def __iter__(self) -> Iterator[Solution]:
         return self
 
     def __next__(self) -> Solution:
+        run, self._run = self._run, None
+        self._searches += 1
         try:
-            if self._run is None:
-                self._run = self._begin()
+            if run is None:
+                run = self._begin()
                 for _ in range(self._told):
-                    next(self._run)
-            found = next(self._run)
+                    next(run)
+            found = next(run)
         except StopIteration:
-            self.close()
+            if self._searches == 1:
+                self.close()
             raise
-        except BaseException:
-            self._run = None
-            raise
+        finally:
+            self._searches -= 1
+        self._run = run
         self._told += 1
         return found
 

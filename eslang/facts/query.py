@@ -7,12 +7,14 @@ when a rule or a declaration changes what they rest on.
 
 from __future__ import annotations
 
+from eslang.base.failure import WRONG_NUMBER_OF_ARGUMENTS, Failure
 from eslang.base.hints import TYPE_CHECKING, Callable
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import NOTHING_GIVEN, Atom, Constants, Given, Tokens, quick_tokens, read_query
 from eslang.facts.relations import Relation
-from eslang.facts.rules import Name, Rule, Rules
+from eslang.facts.rules import Name, Rule, Rules, read_rule
 from eslang.facts.store import MANY, Store
+from eslang.facts.views import Pauses
 from eslang.facts.watching import Reads, woken_by_rules
 
 if TYPE_CHECKING:  # what plans is loaded when something is asked for the first time
@@ -30,6 +32,7 @@ class Facts(Store):
         self.declared: dict[Symbol, list[int]] = {}  # names, and the arities they were declared with
         self.arguments: dict[Name, tuple[Symbol, ...]] = {}  # what they are called, where that is declared
         self.rules = Rules(self.is_test)
+        self.pauses = Pauses(lambda: self.is_telling)
         self.plans: dict[Tokens | None, Plan] = {}
         self.guesses: dict[Tokens, Plan] = {}  # plans with names that nobody defined yet
         self.guessed: dict[Symbol, None] = {}  # these names, while a plan is made
@@ -41,6 +44,7 @@ class Facts(Store):
         arities = self.declared.setdefault(name, [])
         if arity is not None and arity not in arities:
             arities.append(arity)
+            self._forget_unused(name)
         self.became_relation(name)
 
     def declare_property(self, name: Symbol) -> None:
@@ -48,6 +52,11 @@ class Facts(Store):
         self.declared.setdefault(name, [])
         super().declare_property(name)
         self._forget_plans()
+
+    def relation(self, name: Symbol, arity: int) -> Relation:
+        """The relation of that name and arity; fails if NAME was declared with others only."""
+        self._check_arity(name, arity)
+        return super().relation(name, arity)
 
     def is_relation(self, name: Symbol) -> bool:
         """Whether NAME was declared, or has rules, or has or had facts."""
@@ -62,6 +71,11 @@ class Facts(Store):
         super().became_coded(relation)
         self._forget_plans()
 
+    def rows_moved(self) -> None:
+        """The rows of some relation are another dict from now on, which runs that are kept do not know."""
+        for plan in (*self.plans.values(), *self.guesses.values()):
+            plan.forget_runs()
+
     def became_relation(self, name: Symbol) -> None:
         """NAME is a relation from now on, even if plans took it for a function."""
         self.guesses.clear()
@@ -70,10 +84,13 @@ class Facts(Store):
 
     def define_rule(self, head: Value, body: Value) -> bool:
         """Derive HEAD from the goals in the list BODY, too; false if that is known."""
-        rule = self.rules.define(head, body)
-        if rule is not None:
+        rule = read_rule(head, body)
+        for name in (rule.name, *(need.name for need in rule.needs if not self.is_test(need.name[0]))):
+            self._check_arity(*name)
+        is_new = self.rules.define(rule)
+        if is_new:
             self._rules_changed([rule.name])
-        return rule is not None
+        return is_new
 
     def forget_rules(self, name: Symbol) -> bool:
         """Derive no facts of NAME any more; false if there were no rules."""
@@ -89,6 +106,15 @@ class Facts(Store):
             plan, constants = self.plan(query, given)
         run = plan.run_all
         return plan.all(constants) if run is None else run(*constants)
+
+    def alists(self, query: Value, complete: Callable[[Value], Value]) -> Value:
+        """All solutions of QUERY, as Lisp has them; COMPLETE puts in what stands for something else."""
+        constants: Constants = []
+        plan = self.plans.get(quick_tokens(query, constants))
+        if plan is None:
+            plan, constants = self.plan(complete(query))
+        run = plan.run_alists
+        return plan.alists(constants) if run is None else run(*constants)
 
     def first(self, query: Value, given: Given = NOTHING_GIVEN) -> Solution | None:
         """The first solution of QUERY; None if there is none."""
@@ -131,7 +157,7 @@ class Facts(Store):
             self.guessed.clear()
             if len(self.plans) + len(self.guesses) >= MANY:
                 self._forget_plans()
-            plan = make_plan(self._resolve, self._rules_of, tokens, constants, self.call)
+            plan = make_plan(self._resolve, self._rules_of, tokens, constants, self.call, self.pauses)
             plan.guessed = tuple(self.guessed)
             (self.guesses if plan.guessed else self.plans)[tokens] = plan
         return plan, constants
@@ -154,6 +180,28 @@ class Facts(Store):
     def _rules_changed(self, names: list[Name]) -> None:
         """Forget the plans, and wake who asked these relations."""
         self._forget_plans()
-        woken = dict.fromkeys(watch for name in names for watch in woken_by_rules(self.relation(*name)))
+        asked = [self.relations[name] for name in names if name in self.relations]
+        woken = dict.fromkeys(watch for relation in asked for watch in woken_by_rules(relation))
         self._calls += [(watch.wake, None) for watch in woken]
         self._deliver()
+
+    def _check_arity(self, name: Symbol, arity: int) -> None:
+        """Fail if NAME was declared with other arities only, unless facts or rules were there before."""
+        arities = self.declared.get(name)
+        if arities and arity not in arities and not self._is_used(name, arity):
+            expected = " or ".join(map(str, sorted(arities)))
+            plural = "" if arities == [1] else "s"
+            message = f"takes {expected} argument{plural} but {arity} {'was' if arity == 1 else 'were'} given"
+            raise Failure(WRONG_NUMBER_OF_ARGUMENTS, name, message)
+
+    def _is_used(self, name: Symbol, arity: int) -> bool:
+        return (name, arity) in self.relations or (name, arity) in self.rules.by_name
+
+    def _forget_unused(self, name: Symbol) -> None:
+        """Forget relations called NAME that are only spoken of, with other arities than declared."""
+        for relation in self.named(name):
+            is_used = relation.rows or relation.watched
+            if not is_used and relation.arity not in self.declared[name]:
+                del self.relations[name, relation.arity]
+        self._forget_plans()
+        self._patterns.clear()

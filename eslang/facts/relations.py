@@ -3,8 +3,7 @@
 Rows stand in the order of their assertion. An index on some positions is made
 when it is first asked for, and kept right ever after; what it holds under one
 key is a bucket: a tuple while it is small, else a dict used as an ordered set.
-Whoever goes on reading while rows may change reads through a View, which sees
-the rows as they were: it is handed each bucket just before that changes.
+Whoever goes on reading while rows may change does so through a view (views.py).
 """
 
 from __future__ import annotations
@@ -34,16 +33,17 @@ class Index(NamedTuple):
 class Relation:
     """All facts of one name and arity."""
 
-    __slots__ = ("arity", "indexes", "is_plain", "name", "rows", "unique", "views", "watched")
+    __slots__ = ("arity", "indexes", "is_plain", "moved", "name", "rows", "unique", "views", "watched")
 
-    def __init__(self, name: Symbol, arity: int) -> None:
+    def __init__(self, name: Symbol, arity: int, moved: Callable[[], None] = lambda: None) -> None:
         self.name = name
         self.arity = arity
         self.rows: dict[Row, Any] = {}  # in their order; the values are a journal's
         self.is_plain = True  # every code in the rows is a value
         self.indexes: list[Index] = []
         self.unique: Positions | None = None  # of a property: the positions that determine the last one
-        self.views: list[View] = []
+        self.views: list[Any] = []  # the open ones that read here (views.py)
+        self.moved = moved  # is called when `rows` is another dict
         self.watched: dict[Positions, Any] = {}  # who waits for a change (watching.py)
 
     def index(self, positions: Positions) -> dict[Code, Bucket]:
@@ -130,6 +130,22 @@ class Access(NamedTuple):
             return _itself
         return itemgetter(*self.positions) if self.positions else _nothing
 
+    def retire(self, key: Code) -> Any:
+        """What this access finds under KEY now; the relation goes on with a copy of it."""
+        relation = self.relation
+        if self.is_ground:
+            return key in relation.rows
+        if not self.positions:
+            rows = relation.rows
+            relation.rows = rows.copy()
+            relation.moved()
+            return rows
+        buckets = relation.index(self.positions)
+        bucket = buckets.get(key, EMPTY)
+        if bucket.__class__ is dict:
+            buckets[key] = bucket.copy()
+        return bucket
+
     def reader(self) -> Callable[..., Any]:
         """What reads the facts as they are: has(row), all(), or bucket(key, default)."""
         if self.is_ground:
@@ -143,87 +159,3 @@ def _itself(row: Row) -> Code:
 
 def _nothing(row: Row) -> Code:
     return None
-
-
-class Accesses:
-    """The accesses of one query, and what its views need of them."""
-
-    __slots__ = ("accesses", "projects", "relations")
-
-    def __init__(self, accesses: Iterable[Access]) -> None:
-        self.accesses = list(accesses)
-        self.projects = [access.project() for access in self.accesses]
-        self.relations = list({id(access.relation): access.relation for access in self.accesses}.values())
-
-    def readers(self) -> list[Callable[..., Any]]:
-        """What reads the facts as they are."""
-        return [access.reader() for access in self.accesses]
-
-
-class View:
-    """Some relations as they were when the view was opened, for the accesses of one query."""
-
-    __slots__ = ("accesses", "kept", "readers")
-
-    def __init__(self, accesses: Accesses) -> None:
-        self.accesses = accesses
-        self.kept: list[dict[Code, Any]] = []
-        self.readers: list[
-            Callable[..., Any]
-        ] = []  # what reads through this view, in the order of the accesses
-        for access in accesses.accesses:
-            kept: dict[Code, Any] = {}
-            self.kept.append(kept)
-            self.readers.append(_keeping_reader(access, kept))  # and now its index exists, before any change
-        for relation in accesses.relations:
-            relation.views.append(self)
-
-    def close(self) -> None:
-        """Nobody reads here any more."""
-        for relation in self.accesses.relations:
-            if self in relation.views:
-                relation.views.remove(self)
-
-    def keep(self, relation: Relation, row: Row) -> None:
-        """Note what every access would find ROW among, before ROW comes or goes."""
-        for number, access in enumerate(self.accesses.accesses):
-            if access.relation is relation:
-                key = self.accesses.projects[number](row)
-                if key not in self.kept[number]:
-                    self.kept[number][key] = _present(access, key)
-
-
-def _present(access: Access, key: Code) -> Any:
-    """What ACCESS finds under KEY now."""
-    if access.is_ground:
-        return key in access.relation.rows
-    if not access.positions:
-        return tuple(access.relation.rows)
-    return tuple(access.relation.index(access.positions).get(key, EMPTY))
-
-
-def _keeping_reader(access: Access, kept: dict[Code, Any]) -> Callable[..., Any]:
-    """What reads what is KEPT, and where nothing is, the facts as they are."""
-    now = access.reader()
-
-    def has(row: Row) -> bool:
-        found = kept.get(row)
-        return bool(now(row) if found is None else found)
-
-    def everything() -> Iterable[Row]:
-        rows = kept.get(None)
-        if rows is None:
-            rows = kept[None] = tuple(now())
-        return rows
-
-    def bucket(key: Code, default: Bucket) -> Bucket:
-        rows = kept.get(key)
-        if rows is None:
-            rows = now(key, default)
-            if rows.__class__ is dict:
-                rows = kept[key] = tuple(rows)
-        return rows
-
-    if access.is_ground:
-        return has
-    return bucket if access.positions else everything

@@ -61,18 +61,17 @@ class Rules:
         self.by_name: dict[Name, list[Rule]] = {}
         self.arities: dict[Symbol, list[int]] = {}  # of what is derived
 
-    def define(self, head: Value, body: Value) -> Rule | None:
-        """Take the rule that HEAD follows from the goals in the list BODY; None if it is there already."""
-        rule = read_rule(head, body)
+    def define(self, rule: Rule) -> bool:
+        """Take RULE; false if it is there already. Fails if it has no meaning."""
         known = self.by_name.get(rule.name, [])
         if any(is_same_pattern(rule.form, other.form) for other in known):
-            return None
+            return False
         self._hold(rule.name, [*known, rule])
         circle = self._circle(rule.name)
         if circle is not None:
             self._hold(rule.name, known)
             raise Failure(UNSTRATIFIED, from_items([name for name, _ in circle]), rule.form)
-        return rule
+        return True
 
     def forget(self, name: Symbol) -> list[Name]:
         """Take back the rules of all relations called NAME; which ones had some."""

@@ -152,11 +152,12 @@ class Body:
             if ground:
                 self.line(depth, f"if {access}({tuple_of(keys)}):")
             elif not keys:
-                self.line(depth, f"for {row} in {access}():")
+                self.line(depth, f"for {row} in paced({access}()):")
             else:
-                self.line(
-                    depth, f"for {row} in {access}({keys[0] if len(keys) == 1 else tuple_of(keys)}, EMPTY):"
-                )
+                bucket = self.source.fresh("b")
+                key = keys[0] if len(keys) == 1 else tuple_of(keys)
+                self.line(depth, f"{bucket} = {access}({key}, EMPTY)")
+                self.line(depth, f"for {row} in {_few_or_paced(bucket)}:")
         mark = len(self.lines)
         self._take(look, row, rest, scope, depth + 1)
         if len(self.lines) == mark:
@@ -222,7 +223,7 @@ class Body:
         carried = [each for each in self.sink.names if each not in TABLE_NAMES]
         environment = tuple_of(list(dict.fromkeys([*carried, *scope.values()])))
         part = Body(self.source, self.sink, self.constants)
-        part.lines = [*TABLE_OPENING, f"{environment} = environment", "for r in rows:"]
+        part.lines = [*TABLE_OPENING, f"{environment} = environment", "for r in paced(rows):"]
         mark = len(part.lines)
         part._take(look, "r", rest, scope, 1)
         if len(part.lines) == mark:
@@ -258,8 +259,15 @@ def tuple_of(parts: list[str]) -> str:
     return f"({', '.join(parts)}{',' if len(parts) == 1 else ''})"
 
 
+def _few_or_paced(bucket: str) -> str:
+    """The Python expression for the rows of a bucket, with pauses if they are many."""
+    return f"{bucket} if {bucket}.__class__ is tuple else paced({bucket})"
+
+
 def _answers(proc: Proc, keys: list[str]) -> str:
     """The Python expression that gives the answers of rules."""
-    if proc.circle and not proc.is_linear():
-        return f"complete({proc.number}, {tuple_of(keys)})"
-    return f"p{proc.number}({', '.join(keys)})"
+    if not proc.circle:
+        return f"p{proc.number}({', '.join(keys)})"
+    if proc.is_linear():
+        return f"paced(p{proc.number}({', '.join(keys)}))"
+    return f"paced(complete({proc.number}, {tuple_of(keys)}))"

@@ -13,6 +13,7 @@ from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import (
     ANYTHING,
+    UNBOUND,
     Atom,
     Both,
     Constants,
@@ -147,6 +148,8 @@ class Arranger:
                 self.rules(relation, asked_positions(goal, bound), goal.is_direct)
                 return None
         except Failure as failure:
+            if failure.cause is not UNBOUND:
+                raise
             return failure
         missing = [variable for variable in variables_of(goal) if variable not in bound]
         if isinstance(goal, Atom) and any(map(has_anything, goal.terms)):

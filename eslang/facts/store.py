@@ -50,13 +50,13 @@ class Store:
         self._patterns: dict[Tokens | None, Pattern] = {}  # that were asked for by RETRACT and UPDATE
         self._changes: list[tuple[Relation, Change]] = []  # parts of a change that is not whole yet
         self._calls: list[tuple[Callable[[Any], object], Change | None]] = []  # that are due
-        self._telling = False
+        self.is_telling = False
 
     def relation(self, name: Symbol, arity: int) -> Relation:
         """The relation of that name and arity; an empty one if nobody spoke of it yet."""
         relation = self.relations.get((name, arity))
         if relation is None:
-            relation = self.relations[name, arity] = Relation(name, arity)
+            relation = self.relations[name, arity] = Relation(name, arity, self.rows_moved)
             if name in self.properties:
                 relation.unique = unique_positions(arity)
         return relation
@@ -235,6 +235,9 @@ class Store:
     def became_relation(self, name: Symbol) -> None:
         """NAME is a relation from now on."""
 
+    def rows_moved(self) -> None:
+        """The rows of some relation are another dict from now on."""
+
     def became_coded(self, relation: Relation) -> None:
         """Rows of RELATION may hold codes from now on."""
         relation.is_plain = False
@@ -259,9 +262,9 @@ class Store:
 
     def _deliver(self) -> None:
         """Make the calls that are due, and those that come to be due by that."""
-        if self._telling:
+        if self.is_telling:
             return
-        self._telling = True
+        self.is_telling = True
         trouble: list[BaseException] = []  # one who fails does not keep the others from hearing
         for call, change in self._calls:
             try:
@@ -269,6 +272,6 @@ class Store:
             except BaseException as error:
                 trouble.append(error)
         self._calls.clear()
-        self._telling = False
+        self.is_telling = False
         if trouble:
             raise trouble[0]

@@ -9,7 +9,7 @@ complete is kept as long as the query that asked.
 
 from __future__ import annotations
 
-from eslang.base.hints import Any, Callable
+from eslang.base.hints import Any, Callable, Iterable
 from eslang.facts.terms import Code, Row
 
 Key = tuple[Code, ...]
@@ -32,7 +32,8 @@ class Table:
 class Tables:
     """The tables of one query."""
 
-    def __init__(self) -> None:
+    def __init__(self, paced: Callable[[list[Any]], Iterable[Any]]) -> None:
+        self.paced = paced  # goes through a list that grows, with pauses
         self.starts: dict[int, Segment] = {}  # how a table's filling begins, by the number of its rules
         self.tables: dict[tuple[int, Key], Table] = {}
         self.agenda: list[tuple[Segment, Table, Any, list[Row]]] = []
@@ -43,7 +44,7 @@ class Tables:
         if table is None:
             outer, self.agenda = self.agenda, []
             table = self._begin(number, key)
-            for segment, target, environment, rows in self.agenda:
+            for segment, target, environment, rows in self.paced(self.agenda):
                 segment(target, environment, rows)
                 if target.fresh:
                     self._share(target)

@@ -11,8 +11,9 @@ from __future__ import annotations
 from eslang.base.hints import Any, Callable, Iterable
 from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol
-from eslang.facts.relations import Access, Accesses, Positions, Project, Relation
+from eslang.facts.relations import Access, Positions, Project, Relation
 from eslang.facts.terms import Code, Row, fact_of
+from eslang.facts.views import Accesses
 
 
 class Change:

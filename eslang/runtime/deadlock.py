@@ -116,6 +116,10 @@ def phrase(wait: Wait) -> str:
             return "the next period"
         case "condition":
             return f"the condition {shown(of)}"
+        case "resource":
+            return f"{of[1]} of the resource {shown(of[0])}"
+        case "achievement" | "recovery":
+            return f"the {wait.kind} of {shown(of)}"
     return f"{of}" if of is not None else wait.kind
 
 

@@ -32,14 +32,16 @@ WAIT_ON = Part(
     "on",
     "str",
     "what it is for: `events`, `checkpoint`, `end`, `tasks`, `leaving`, `condition`, `sleep`, `period`, "
-    "`outside` (a coroutine or a blocking call), …",
+    "`achievement` and `recovery` (of a maintained property), `outside` (a coroutine or a blocking call), …",
 )
 WAIT_OF = Part(
     "of",
     "value",
     "what belongs to it: the events, (task, checkpoint), tasks, the condition, the seconds, what it is",
 )
-WHY_INTERRUPT = Part("why", "str", "`guardian`, `deadline`, `deadlock`, `interrupt-task`, `crash`, …")
+WHY_INTERRUPT = Part(
+    "why", "str", "`guardian`, `deadline`, `violation`, `lock`, `deadlock`, `interrupt-task`, …"
+)
 INTERRUPT_BY = Part("by", "Task | None", "the task that it comes from; none for a clock's")
 WAKES = Part("wakes", "list[Task]", "the tasks that waited for it, in their order")
 RAISED = Part("raised", "Place | None", "where the failure was raised")
@@ -78,7 +80,7 @@ TABLE = (
                 "str",
                 "`abort-task`; `net`: its net is decided; `guardian`: what it guarded is over; "
                 "`owner`: its owner ends; `run`: the run does; "
-                "`caller`: the coroutine that awaits it was cancelled",
+                "`caller`: the coroutine that awaits it was cancelled; `recovery`: nobody wants it any more",
             ),
             Part("by", "Task | None", "the task that asks for it, or whose end decided it"),
         ),
@@ -214,6 +216,34 @@ TABLE = (
         "a fact came or went; the change that it belongs to is whole",
         HERE,
         (Part("added", "bool", "it came"), Part("fact", "list", "the fact")),
+    ),
+    Kind(
+        "lock",
+        "somebody takes a property lock, or something becomes of its property",
+        HERE,
+        (
+            Part(
+                "change",
+                "str",
+                "`subscribed`, `released`, `owned` (the next one is the owner now); `achieving`, `achieved`, "
+                "`not-achieved`; `violated`, `recovering`, `recovered`, `unrecoverable`",
+            ),
+            Part("property", "value", "the property, with the value that is claimed"),
+            Part("of", "Task | None", "the subscriber, or who achieves or recovers the property"),
+            Part("owner", "Task | None", "the owner of the lock, now"),
+        ),
+    ),
+    Kind(
+        "resource",
+        "something becomes of a claim on a resource",
+        HERE,
+        (
+            Part("change", "str", "`granted`, `released`, `refused`; `preempted`: its holder is to give way"),
+            Part("resource", "Symbol", "the resource"),
+            Part("amount", "number", "how much is claimed"),
+            Part("of", "Task", "whose claim it is"),
+            Part("left", "number", "how much is left now"),
+        ),
     ),
     Kind(
         "run-stopped",

@@ -23,6 +23,8 @@ INSTANTS = {
     "deadlock",
     "goal",
     "fact",
+    "lock",
+    "resource",
     "period-missed",
     "run-stopped",
     "signal",

@@ -35,6 +35,8 @@ SIGNS = {
     "signal": "▸",
     "checkpoint": "▸",
     "fact": "+",
+    "lock": "▪",
+    "resource": "▪",
     "deadlock": "!",
 }
 WAITING, WORKING = "┊", "│"

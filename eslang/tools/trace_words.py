@@ -16,6 +16,7 @@ SUBJECTS = {
     "abort": "of",
     "interrupt-sent": "to",
     "deadlock": "to",
+    "resource": "of",
 }
 ROLES = {"member": "", "main": "", "guardian": ", a guardian", "spawned": ", spawned"}
 WHY_ABORTED = {
@@ -24,6 +25,7 @@ WHY_ABORTED = {
     "owner": "its owner ends",
     "run": "the run ends",
     "caller": "who awaits it was cancelled",
+    "recovery": "nobody wants it any more",
 }
 MANY = 4  # names that are listed
 
@@ -94,12 +96,16 @@ def waited_for(told: dict[str, Any]) -> str:
         return f"the end{'s' if len(names) > 1 else ''} of {listed(names)}"
     if on == "condition":
         return f"the condition {value_text(of)}"
+    if on == "resource" and isinstance(of, list) and len(of) == 2:
+        return f"{value_text(of[1])} of {value_text(of[0])}"
     if on == "period":
         return f"the next period, {seconds(of)}"
     if on == "sleep":
         return f"{seconds(of)} to pass"
     if on == "outside":
         return f"{value_text(of)}, outside"
+    if on in ("achievement", "recovery"):
+        return f"the {on} of {value_text(of)}"
     return on if of is None else f"{on} {value_text(of)}"
 
 
@@ -167,6 +173,34 @@ def _goal(told: dict[str, Any]) -> str:
     return f"goal {value_text(told['condition'])} {states.get(told['state'], told['state'])}"
 
 
+def _lock(told: dict[str, Any]) -> str:
+    locked, of, owner = value_text(told["property"]), told["of"], told["owner"]
+    sentences = {
+        "subscribed": f"subscribes to {locked}, which {'it' if of == owner else owner} owns",
+        "released": f"releases {locked}",
+        "owned": f"leaves {locked} to {of}",
+        "achieving": f"is to achieve {locked}",
+        "achieved": f"has achieved {locked}",
+        "not-achieved": f"could not achieve {locked}",
+        "violated": f"finds {locked} violated",
+        "recovering": f"lets {of} restore {locked}",
+        "recovered": f"finds {locked} restored",
+        "unrecoverable": f"gives up {locked}",
+    }
+    return sentences.get(told["change"], f"{told['change']} {locked}")
+
+
+def _resource(told: dict[str, Any]) -> str:
+    claim, left = f"{told['amount']} of {told['resource']}", f"{told['left']} left"
+    sentences = {
+        "granted": f"has {claim} now, {left}",
+        "released": f"gives {claim} back, {left}",
+        "refused": f"cannot have {claim}, {left}",
+        "preempted": f"is to give {claim} back",
+    }
+    return sentences.get(told["change"], f"{told['change']} {claim}")
+
+
 def _deadlock(told: dict[str, Any]) -> str:
     return f"deadlock of {listed([each.get('task') for each in told['waiting']])}: nothing can wake them"
 
@@ -195,5 +229,7 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "deadlock": _deadlock,
     "goal": _goal,
     "fact": lambda told: f"{'asserts' if told['added'] else 'retracts'} {value_text(told['fact'])}",
+    "lock": _lock,
+    "resource": _resource,
     "run-stopped": lambda told: f"the run is stopped: {told['reason']} (exit {told['code']})",
 }

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 Term = Any
 Goal = tuple[Any, ...]
+Relation = tuple[str, int]
 Bindings = dict[str, Term]
 
 TESTS: dict[str, Callable[..., bool]] = {
@@ -96,37 +97,45 @@ class Rule(NamedTuple):
     body: tuple[Goal, ...]
 
 
-def strata(rules: Iterable[Rule]) -> dict[str, int] | None:
+def strata(rules: Iterable[Rule]) -> dict[Relation, int] | None:
     """How many NOTs stand below each derived relation; None if there is no end of them."""
     rules = list(rules)
-    found = dict.fromkeys((rule.head[0] for rule in rules), 0)
+    found = dict.fromkeys((relation(rule.head) for rule in rules), 0)
     for _ in range(len(found) * len(found) + 1):
         before = dict(found)
         for rule in rules:
             for atom, negated in atoms(("and", *rule.body)):
-                if atom[0] in found:
-                    found[rule.head[0]] = max(found[rule.head[0]], found[atom[0]] + negated)
+                if relation(atom) in found:
+                    least = found[relation(atom)] + negated
+                    found[relation(rule.head)] = max(found[relation(rule.head)], least)
         if found == before:
             return found
     return None
 
 
+def relation(atom: Goal) -> Relation:
+    """The name and the arity that ATOM is about."""
+    return atom[0], len(atom) - 1
+
+
 class World:
     """Facts, and all that rules make of them."""
 
-    def __init__(self, facts: Iterable[Goal], rules: Iterable[Rule], queries: Iterable[Goal] = ()) -> None:
+    def __init__(self, facts: Iterable[Goal], rules: Iterable[Rule]) -> None:
         self.facts = {key(fact): fact for fact in facts}
         self.rules = list(rules)
-        said = [*self.facts.values(), *(rule.head for rule in self.rules), *queries]
-        said += [goal for rule in self.rules for goal in rule.body]
-        terms = [
-            term for goal in said for atom, _ in atoms(goal) for part in atom[1:] for term in subterms(part)
-        ]
-        self.universe = list({key(term): term for term in terms}.values())
+        self.universe = self._terms()
         found = strata(self.rules)
         assert found is not None, "no such rules mean anything"
         for stratum in range(len(found) + 1):
-            self._derive([rule for rule in self.rules if found[rule.head[0]] == stratum])
+            self._derive([rule for rule in self.rules if found[relation(rule.head)] == stratum])
+        self.universe = self._terms()
+
+    def _terms(self) -> list[Term]:
+        """What a variable may be: what stands in a fact, or in a head."""
+        said = [*self.facts.values(), *(rule.head for rule in self.rules)]
+        terms = [term for fact in said for part in fact[1:] for term in subterms(part)]
+        return list({key(term): term for term in terms if not variables(term)}.values())
 
     def _derive(self, rules: list[Rule]) -> None:
         """Add what follows, until nothing new does."""
@@ -160,18 +169,19 @@ class World:
                 if self.holds(filled(conjunction, bindings)):
                     yield bindings
 
-    def solutions(self, goal: Goal) -> set[frozenset[tuple[str, Any]]]:
-        """The distinct solutions of GOAL, with keys for terms."""
+    def solutions(self, goal: Goal, given: Bindings | None = None) -> set[frozenset[tuple[str, Any]]]:
+        """The distinct solutions of GOAL where some variables are GIVEN values, with keys for terms."""
+        given = {name: term for name, term in (given or {}).items() if name in variables(goal)}
         return {
-            frozenset((name, key(term)) for name, term in bindings.items())
-            for bindings in self._solutions(goal)
+            frozenset((name, key(term)) for name, term in {**given, **bindings}.items())
+            for bindings in self._solutions(filled(goal, given))
         }
 
 
 def ways(goal: Goal) -> list[Goal]:
     """The conjunctions, one of which is true where GOAL is."""
     if goal[0] == "or":
-        return [way for part in goal[1:] for way in ways(part)]
+        return [way for part in goal[1:] for way in ways(part)] or [("and", goal)]
     if goal[0] != "and":
         return [("and", goal)]
     choices = product(*map(ways, goal[1:]))
@@ -183,6 +193,14 @@ def check_safe(conjunction: Goal) -> None:
     bound = {name for goal in conjunction[1:] if goal[0] not in ("not", *TESTS) for name in variables(goal)}
     if any(name not in bound for name in variables(conjunction)):
         raise Unsafe
-    for goal in conjunction[1:]:
-        if goal[0] in TESTS and any("?_" in str(term) for term in goal[1:]):
-            raise Unsafe
+    if any(atom[0] in TESTS and "?_" in list(flat(atom)) for atom, _ in atoms(conjunction)):
+        raise Unsafe
+
+
+def flat(term: Term) -> Iterator[Term]:
+    """The atoms in TERM."""
+    if term.__class__ is not tuple:
+        yield term
+    else:
+        for part in term:
+            yield from flat(part)

@@ -120,3 +120,21 @@ def test_what_is_mended_can_be_turned_on_and_operated(run: list[tuple[str, Any, 
     for name in (":neb1", ":bus_1553", ":gde", ":ega_x"):
         flight.agent.eval(f"(turn-device-on {name})")
     assert flight.agent.eval("(operate-device :ega_x)") is True
+
+
+@pytest.mark.slow
+@settings(deadline=None, max_examples=40)
+@given(st.lists(steps, max_size=12), st.sampled_from([":ega_x", ":camera", ":valve", ":gde", ":neb1"]))
+def test_what_is_made_ready_is_ready_or_else_that_fails(run: list[tuple[str, Any, Any]], name: str) -> None:
+    flight = Flight()
+    for step in run:
+        flight.do(*step)
+    flight.agent.eval("(sleep 1)")
+    try:
+        ready = flight.agent.eval(f"(make-ready {name})")
+    except Failure as failure:
+        assert failure.cause is Keyword("NOT-READY")
+    else:
+        assert flight.agent.eval(f"(device-ready-p {ready})") is True
+        assert flight.hardware.devices[ready].has_power
+    assert flight.hardware.now() < 12 * 2 + 60

@@ -176,6 +176,16 @@ def test_anything_else_passes_through_untouched(agent: Interpreter) -> None:
         assert agent.eval("(first *kept*)") is thing
 
 
+def test_a_list_that_contains_itself_stays_as_it_is(agent: Interpreter) -> None:
+    inner, copied = agent.eval("(let ((c (list 1 2))) (setf (cadr c) c) (list c '((1) 1)))")
+    assert inner[0] == 1 and str(inner[1]) == "#1=(1 #1#)"
+    assert copied == [[1], 1]
+    assert agent.eval("(let ((x (list 1 2))) (cons x x))") == [[1, 2], 1, 2]
+    with pytest.raises(Failure) as caught:
+        agent.eval("(let ((c (list 1 2))) (setf (cadr c) c) (fail :odd c))")
+    assert caught.value.arguments[0][0] == 1
+
+
 def test_a_dotted_list_stays_a_cons(agent: Interpreter) -> None:
     pair = agent.eval("'(1 . 2)")
     assert (pair.car, pair.cdr) == (1, 2)

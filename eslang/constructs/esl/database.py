@@ -7,12 +7,14 @@ from __future__ import annotations
 
 from eslang.base.failure import type_error
 from eslang.base.hints import Any
-from eslang.base.lists import Cons, from_items, items, lisp_list
+from eslang.base.lists import Cons, items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.base.text import String
 from eslang.compile.registry import CL, ESL, function, macro
+from eslang.constructs.conditions import CONNECTIVES
 from eslang.constructs.queries import in_force
+from eslang.facts.unify import is_variable
 
 QUOTE = Symbol.intern("QUOTE", CL)
 DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE = (
@@ -105,8 +107,7 @@ def db_query(query: Value) -> Value:
 
     Source: ESL §5; ARM §2. Alists: language reference §5.
     """
-    solutions = running.session.database.all(in_force(query))
-    return from_items([from_items([Cons(*pair) for pair in each.items()]) for each in solutions])
+    return running.session.database.alists(query, in_force)
 
 
 # --- declarations --------------------------------------------------------------------
@@ -121,7 +122,7 @@ def defrelation(form: Cons, environment: Any) -> Value:
     declared with several numbers.
 
     Returns: NAME.
-    Fails:   :type-error if NAME is no symbol.
+    Fails:   :type-error if NAME is no symbol, or AND, OR or NOT.
 
     Example:
         ? (defrelation connected-to (thing other))
@@ -181,6 +182,8 @@ def _declare(name: Value, arguments: Value) -> None:
     """Let NAME be a relation with ARGUMENTS: a list of names, their number, or nothing."""
     if not isinstance(name, Symbol):
         raise type_error(name, "SYMBOL")
+    if name in CONNECTIVES or is_variable(name):
+        raise type_error(name, "RELATION")
     if arguments is None or arguments.__class__ is String:
         running.session.database.declare(name)
     elif arguments.__class__ is int and arguments >= 0:

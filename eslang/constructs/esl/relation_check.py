@@ -129,19 +129,18 @@ class RelationCheck(Judge):
 
     def arity(self, mention: Mention) -> Iterator[Diagnostic]:
         """A relation has another number of arguments than it is declared with, or than all its facts have."""
-        name, found = mention.name, mention.arity
-        ways = self.known.get(name, [])
+        ways = self.known.get(mention.name, [])
         declared = {each.arity for each in ways if each.how == DECLARED and each.arity is not None}
-        if found is None or None in {each.arity for each in ways if each.how != DECLARED} or not ways:
+        if mention.arity is None or not ways:
             return
         if declared:
-            if found not in declared:
+            if mention.arity not in declared:
                 yield self.wrong_arity(mention, sorted(declared))
-        elif mention.how in (ASKED, CONDITION) and not any(each.how == DECLARED for each in ways):
-            known = {each.arity for each in ways}
-            if found not in known and self.mentions.is_whole:
-                some = " or ".join(map(str, sorted(each for each in known if each is not None)))
-                message = f"no fact of `{shown(name)}` has {counted(found)}"
+        elif mention.how in (ASKED, CONDITION) and self.mentions.is_whole:
+            arities = {each.arity for each in ways}
+            if None not in arities and mention.arity not in arities:
+                some = " or ".join(sorted(map(str, arities)))
+                message = f"no fact of `{shown(mention.name)}` has {counted(mention.arity)}"
                 hint = f"give it {some}, as where it is asserted or derived"
                 yield warning("unknown-relation", message, mention, hint)
 
@@ -164,6 +163,7 @@ class QuestionCheck:
     def __init__(self, check: RelationCheck) -> None:
         self.check = check
         self.facts = Facts(self.is_test, lambda name, arguments: True)
+        self.told: set[str] = set()  # what was said of rules, and is not said again of who asks them
         for name in check.known:
             self.facts.declare(name)
 
@@ -199,6 +199,11 @@ class QuestionCheck:
             self.facts.plan(shows(query), given or {})
         except Failure as failure:
             if failure.cause is UNBOUND:
+                goal = shown(failure.values[1])
+                if question.head is not None:
+                    self.told.add(goal)
+                elif goal in self.told:
+                    return
                 yield unsafe(failure, question)
 
 

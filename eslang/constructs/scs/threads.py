@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from eslang.base.failure import type_error
 from eslang.base.hints import Any
-from eslang.base.lists import Cons, lisp_list
+from eslang.base.lists import Cons
 from eslang.base.many import pack, primary
 from eslang.base.running import running
 from eslang.base.shown import shown

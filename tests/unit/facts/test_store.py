@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 
 from asking import Asking, read
-from eslang.base.failure import Failure
+from eslang.base.failure import WRONG_NUMBER_OF_ARGUMENTS, Failure
 from eslang.base.printer import prin1
 from eslang.facts.goals import UNBOUND
+from eslang.facts.watching import watch
 
 
 def test_a_fact_is_held_once_and_in_order() -> None:
@@ -166,3 +169,61 @@ def test_what_is_a_relation() -> None:
     facts.rule("((s ?x) (p ?x))")
     facts.answers("(t ?x)")
     assert [facts.is_relation(read(name)) for name in "pqrst"] == [True, True, True, True, False]
+
+
+@pytest.mark.parametrize(
+    "act",
+    [
+        lambda facts: facts.add(read("(level a)")),
+        lambda facts: facts.add_all([read("(p 2)"), read("(level a)")]),
+        lambda facts: facts.retract(read("(level ?x)")),
+        lambda facts: facts.update(read("(p ?x)"), read("(level a)")),
+        lambda facts: facts.answers("(level ?x)"),
+        lambda facts: facts.answers("(and (> ?n 3) (level ?x) (p ?n))"),
+        lambda facts: facts.answers("(not (level a))"),
+        lambda facts: facts.answers("(or (p ?x) (level ?x))"),
+        lambda facts: facts.rule("((level ?x) (p ?x))"),
+        lambda facts: facts.rule("((q ?x) (p ?x) (not (level ?x)))"),
+    ],
+)
+def test_a_declared_arity_is_kept(act: Callable[[Asking], object]) -> None:
+    facts = Asking("(p 1)")
+    facts.declare(read("level"), 2)
+    with pytest.raises(Failure) as caught:
+        act(facts)
+    assert caught.value.cause is WRONG_NUMBER_OF_ARGUMENTS
+    assert caught.value.arguments == (read("level"), "takes 2 arguments but 1 was given")
+    assert facts.held() == ["(P 1)"] and not facts.is_relation(read("q"))
+
+
+def test_a_relation_may_be_declared_with_several_arities() -> None:
+    facts = Asking()
+    for arity in (3, 1, 3):
+        facts.declare(read("at"), arity)
+    facts.add_all(map(read, ["(at a)", "(at a b c)"]))
+    with pytest.raises(Failure) as caught:
+        facts.add(read("(at a b)"))
+    assert caught.value.arguments[1] == "takes 1 or 3 arguments but 2 were given"
+
+
+def test_what_was_there_before_an_arity_was_declared_stays() -> None:
+    facts = Asking("(level a 1 2)", "(level)")
+    facts.rule("((level ?x) (level ?x ?_ ?_))")
+    facts.answers("(level ?x ?y ?z ?u)")
+    facts.declare(read("level"), 2)
+    facts.add(read("(level b 1 2)"))
+    assert facts.answers("(level ?x)") == ["A", "B"]
+    assert facts.answers("(level)") == [""]
+    assert facts.forget_rules(read("level"))
+    with pytest.raises(Failure):
+        facts.answers("(level ?x ?y ?z ?u)")  # nothing was there but a question
+
+
+def test_who_waits_for_an_arity_that_comes_to_be_declared_is_woken() -> None:
+    facts = Asking()
+    woken: list[object] = []
+    watch(facts.ask(read("(level ?x ?y ?z)"))[1], woken.append)
+    facts.declare(read("level"), 2)
+    facts.declare(read("level"), 3)
+    facts.add(read("(level a b c)"))
+    assert len(woken) == 1

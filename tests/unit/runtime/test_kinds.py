@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from typing import Any
 
+from locking.world import World
 from unit.tools.traced import EVERY_KIND, RESCUE, told
 
 from architecture.sources import MODULES
@@ -27,6 +29,14 @@ CLASSES = {
     "float": (int, float),
     "tuple[Waiting, ...]": tuple,
 }
+
+
+def told_of_a_lock() -> list[Any]:
+    """The events of a property lock that is taken, and left."""
+    heard: list[Any] = []
+    world = World(listeners=[heard.append])
+    world.run(a=world.hold("p=1"))
+    return heard
 
 
 def tells() -> Iterator[tuple[str, set[str], str]]:
@@ -61,7 +71,7 @@ def test_what_the_papers_print_is_in_the_table() -> None:
 
 def test_the_parts_are_of_the_types_that_the_table_says() -> None:
     wrong = []
-    for event in told(RESCUE) + told(EVERY_KIND):
+    for event in told(RESCUE) + told(EVERY_KIND) + told_of_a_lock():
         for part in KINDS[event.kind].parts:
             value = event.data[part.name]
             kind = part.type.removesuffix(" | None")
@@ -72,7 +82,7 @@ def test_the_parts_are_of_the_types_that_the_table_says() -> None:
 
 
 def test_two_plans_tell_every_kind() -> None:
-    heard = {event.kind for event in told(RESCUE) + told(EVERY_KIND)}
+    heard = {event.kind for event in told(RESCUE) + told(EVERY_KIND) + told_of_a_lock()}
     assert set(KINDS) - heard == set()
 
 

@@ -48,12 +48,12 @@ def test_nothing_is_completed_where_no_name_is_typed(interp: Interpreter, text: 
     assert completions(interp, text) == {}
 
 
-@pytest.mark.parametrize("text", ["", "a", "(a)", "(a) (b)", ")", "(a))", "#<", "; x"])
+@pytest.mark.parametrize("text", ["", "a", "(a)", "(a) (b)", ":facts (a ?x)", ":facts", ")", "(a))", "#<", "; x"])
 def test_what_is_complete_or_wrong_is_answered_at_once(interp: Interpreter, text: str) -> None:
     assert is_complete(interp, text)
 
 
-@pytest.mark.parametrize("text", ["(a", "(a) (b", '"a', "'", "#|", "|a", "(a ; )"])
+@pytest.mark.parametrize("text", ["(a", "(a) (b", ":facts (a ?x", '"a', "'", "#|", "|a", "(a ; )"])
 def test_what_is_unfinished_goes_on(interp: Interpreter, text: str) -> None:
     assert not is_complete(interp, text)
 

@@ -38,6 +38,8 @@ EVERY_KIND = """
 (let ((turns 0))
   (periodically 1 (sleep 2.5) (if (= (incf turns) 2) (return))))
 (task-net (a (wait-until (at robot dock))) (b (yield) (assert '(at robot dock))))
+(define-resource power :capacity 5)
+(with-resource (power 3) (sleep 1))
 (fail :over)
 (task-net (a (checkpoint-wait b :never)) (b (checkpoint-wait a :never)))
 (quit 3)

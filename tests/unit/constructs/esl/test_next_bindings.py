@@ -138,6 +138,37 @@ def test_an_interrupt_asks_for_the_next_where_the_task_stands() -> None:
     assert lines_of(text) == ["SAW", "(:DONE DRILL)"]
 
 
+def test_a_test_of_the_query_stands_outside_of_its_form() -> None:
+    """Whichever solution is looked for: #?X and NEXT-BINDINGS there are those of the form around."""
+    text = f"""
+    {NUMBERS}
+    (defun test (x)
+      (when (= x 1) (print (list :test #?x)) (next-bindings))
+      t)
+    (with-query-bindings '(n ?x)
+      (with-query-bindings '(and (n ?x) (test ?x))
+        (print (list :inner #?x))
+        (next-bindings)))
+    """
+    assert came_to(text) == (
+        ["(:INNER 0)", "(:TEST 0)", "(:INNER 0)", "(:TEST 1)", "(:INNER 0)", "(:TEST 2)"],
+        ":NO-MORE-BINDINGS (N ?X)",
+    )
+
+
+def test_an_interrupt_may_ask_for_the_next_while_it_is_looked_for() -> None:
+    """The guardian ends while the body's own NEXT-BINDINGS waits in a test."""
+    text = f"""
+    {NUMBERS}
+    (defun slow (x) (sleep 1) t)
+    (with-query-bindings '(and (n ?x) (slow ?x))
+      (with-guardian (sleep 1/2) (next-bindings)
+        (print #?x)
+        (next-bindings)))
+    """
+    assert came_to(text) == (["0", "1", "2"], ":NO-MORE-BINDINGS (AND (N ?X) (SLOW ?X))")
+
+
 @pytest.mark.parametrize(
     "form",
     [

@@ -124,6 +124,18 @@ SAID = {
         "(assert '(on 1)) (defrule (odd ?x) (on ?x) (not (= ?x ?y)))",
         [("unsafe-query", "(not (= ?x ?y))")],
     ),
+    "a rule that no query can ask is told once": (
+        "(assert '(on 1)) (defrule (odd ?x) (on ?x) (not (= ?x ?y))) (db-query '(odd ?x))",
+        [("unsafe-query", "(not (= ?x ?y))")],
+    ),
+    "declared arguments count, though not all facts show theirs": (
+        STRICT + "(defun f (x) (assert (cons 'link x)) (db-query '(link ?x)))",
+        [("wrong-number-of-arguments", "link")],
+    ),
+    "a rule whose head nothing binds, asked for all": (
+        "(assert '(on 1)) (defrule (any ?x) (on 1)) (db-query '(any ?x))",
+        [("unsafe-query", "(any ?x)")],
+    ),
     "a rule about its own absence": (
         "(assert '(on 1)) (defrule (off ?x) (on ?x) (not (off ?x)))",
         [("unstratified-rules", "(off ?x)")],

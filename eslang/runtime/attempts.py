@@ -1,0 +1,47 @@
+"""Attempts: work whose own failure is somebody else's news.
+
+Who achieves a property for others (ARM §4) has to tell them when that fails.
+The failure counts as that of the work if nothing inside answers it. What an
+interrupt brings that belongs to something farther out, such as a deadline, is
+no failure of the work: it goes outward, as if the work were not there.
+"""
+
+from __future__ import annotations
+
+from eslang.base.control import Abort
+from eslang.base.failure import GENERAL_FAILURE, Failure
+from eslang.base.hints import Callable
+from eslang.base.symbols import Value
+from eslang.runtime import failures
+from eslang.runtime.failures import Clause, Form
+from eslang.runtime.tasks import Extent, Interrupt, Task
+
+
+def attempt(task: Task, work: Callable[[], object]) -> Failure | None:
+    """Let TASK, the current one, do WORK; the failure that it ends with, if it does."""
+    form, before = Form(), len(task.obeying)
+
+    def is_own(failure: Failure) -> bool:
+        return not any(comes_from_outside(each, form) for each in task.obeying[before:])
+
+    def take(failure: Value) -> Value:
+        raise Abort(form, failure)
+
+    def done() -> Value:
+        work()
+        return None
+
+    clause = Clause(GENERAL_FAILURE, None, None, is_own)
+    failure: Failure | None = failures.run_form(form, (clause,), (take,), done)
+    return failure
+
+
+def comes_from_outside(interrupt: Interrupt, form: Form) -> bool:
+    """True if INTERRUPT belongs to nothing that was entered inside FORM."""
+    extent = interrupt.extent
+    if not isinstance(extent, Extent):
+        return extent is None
+    around = extent.forms
+    while around is not None and around is not form:
+        around = around.outer
+    return around is None

@@ -1,0 +1,171 @@
+"""Making devices ready (ARM §5): by which switch, which way, which device, and what is tried again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from io import StringIO
+
+import pytest
+from unit.devices.world import failure_of, state
+
+from eslang import Interpreter
+from eslang.base.spans import Source
+from eslang.base.symbols import Keyword
+from eslang.devices.scenario import begin_scenario, scenario_of
+
+EGA_X, SPARE = Keyword("EGA_X"), Keyword("EGA_X_SPARE")
+
+
+@pytest.fixture
+def agent() -> Iterator[Interpreter]:
+    """The small spacecraft, on virtual time; *SENT* holds the commands, the last first."""
+    with Interpreter(clock="virtual", output=StringIO()) as made:
+        made.eval("""
+            (load-spacecraft) (device-power-state :neb1) (defvar *sent* nil)
+            (let ((send #'send-command))
+              (defun esl:send-command (device command)
+                (push (list device command) *sent*)
+                (funcall send device command)))
+        """)
+        yield made
+
+
+def sent(agent: Interpreter) -> list[str]:
+    """The commands that were sent, in order."""
+    return [f"{device} {command}".lower() for device, command in agent.eval("(reverse *sent*)") or []]
+
+
+def test_a_device_is_turned_on_by_its_switch_and_so_is_what_it_talks_through(agent: Interpreter) -> None:
+    assert agent.eval("(make-ready :ega_x)") is EGA_X
+    assert sent(agent) == [":acs_gde_ips_x_sw1 :turn-on", ":gde_sw :turn-on"]
+    assert agent.eval("(list (device-ready-p :ega_x) (operate-device :ega_x))") == [True, True]
+
+
+def test_what_is_ready_needs_no_command(agent: Interpreter) -> None:
+    agent.eval("(progn (make-ready :ega_x) (setq *sent* nil) (make-ready :ega_x))")
+    assert sent(agent) == []
+
+
+def test_first_the_switch_is_simply_tried_again(agent: Interpreter) -> None:
+    text = "(at 0 (break-device :camera_sw :stuck)) (at 1 (break-device :camera_sw :ok))"
+    begin_scenario(agent, scenario_of(agent, Source("test.scenario", text)))
+    assert agent.eval("(progn (sleep 0.3) (make-ready :camera))") is Keyword("CAMERA")
+    assert sent(agent) == [":camera_sw :turn-on", ":camera_sw :turn-on"]
+
+
+def test_then_the_redundant_switch_is_tried(agent: Interpreter) -> None:
+    agent.eval("(break-device :acs_gde_ips_x_sw1 :stuck)")
+    assert agent.eval("(make-ready :ega_x)") is EGA_X
+    assert sent(agent)[:3] == [*[":acs_gde_ips_x_sw1 :turn-on"] * 2, ":acs_gde_ips_x_sw2 :turn-on"]
+
+
+def test_then_the_redundant_device_is_tried(agent: Interpreter) -> None:
+    agent.eval("(progn (break-device :acs_gde_ips_x_sw1 :stuck) (break-device :acs_gde_ips_x_sw2 :stuck))")
+    assert agent.eval("(make-ready :ega_x)") is SPARE
+    assert agent.eval("(device-ready-p :ega_x_spare)") is True
+
+
+def test_if_nothing_helps_the_device_is_not_ready(agent: Interpreter) -> None:
+    agent.eval(
+        '(dolist (n \'(1 2 3)) (break-device (intern (format nil "ACS_GDE_IPS_X_SW~D" n) :keyword) :stuck))'
+    )
+    assert failure_of(agent, "(make-ready :ega_x)") == (":NOT-READY", ":EGA_X")
+    assert len(sent(agent)) == 6
+
+
+def test_a_device_that_is_broken_for_good_is_not_tried_again(agent: Interpreter) -> None:
+    agent.eval("(break-device :ega_x :permanent-failure)")
+    assert agent.eval("(make-ready :ega_x)") is SPARE
+    assert ":ega_x :reset" not in sent(agent)
+
+
+def test_what_the_diagnosis_calls_permanent_is_not_tried_again(agent: Interpreter) -> None:
+    agent.eval("""
+        (break-device :acs_gde_ips_x_sw1 :stuck)
+        (setq *diagnosis-function* (lambda (device cause) (list device cause) :permanent))
+    """)
+    assert agent.eval("(make-ready :ega_x)") is EGA_X
+    assert sent(agent)[:2] == [":acs_gde_ips_x_sw1 :turn-on", ":acs_gde_ips_x_sw2 :turn-on"]
+
+
+def test_the_diagnosis_is_asked_of_who_is_to_blame(agent: Interpreter) -> None:
+    agent.eval("""
+        (defvar *asked* nil)
+        (setq *diagnosis-function* (lambda (device cause) (push (list device cause) *asked*) :transient))
+        (break-device :acs_gde_ips_x_sw1 :stuck)
+        (make-ready :ega_x)
+    """)
+    assert agent.value("*asked*") == [[Keyword("ACS_GDE_IPS_X_SW1"), Keyword("NO-POWER")]]
+
+
+def test_an_upset_is_reset(agent: Interpreter) -> None:
+    agent.eval("(break-device :ega_x :single-event-upset)")
+    assert agent.eval("(make-ready :ega_x)") is EGA_X
+    assert sent(agent)[-1] == ":ega_x :reset"
+    assert agent.eval("(operate-device :ega_x)") is True
+
+
+def test_an_upset_on_the_way_is_reset_too(agent: Interpreter) -> None:
+    agent.eval("(progn (make-ready :ega_x) (break-device :gde :single-event-upset) (sleep 1))")
+    assert agent.eval("(device-ready-p :ega_x)") is None
+    assert agent.eval("(make-ready :ega_x)") is EGA_X
+    assert agent.eval("(device-ready-p :ega_x)") is True
+
+
+def test_a_switch_that_is_upset_is_reset(agent: Interpreter) -> None:
+    agent.eval("(progn (break-device :camera_sw :single-event-upset) (sleep 1))")
+    assert agent.eval("(make-ready :camera)") is Keyword("CAMERA")
+    assert sent(agent) == [f":camera_sw {command}" for command in (":turn-on", ":reset", ":turn-on")]
+
+
+def test_a_bus_that_has_tripped_is_reset(agent: Interpreter) -> None:
+    agent.eval("(progn (break-device :neb1 :tripped) (sleep 1))")
+    assert agent.eval("(make-ready :camera)") is Keyword("CAMERA")
+    assert [state(agent, ":neb1"), state(agent, ":camera")] == [":on", ":on"]
+
+
+def test_a_bus_that_is_off_is_turned_on(agent: Interpreter) -> None:
+    agent.eval("(turn-device-off :neb1)")
+    assert agent.eval("(make-ready :camera)") is Keyword("CAMERA")
+
+
+def test_what_is_always_too_much_for_its_bus_leaves_the_bus_on(agent: Interpreter) -> None:
+    agent.eval("(assert '(powered-thru :oven :neb1)) (assert '(switched-thru :oven :oven_sw))")
+    agent.eval("(assert '(power-draw :oven 500))")
+    assert failure_of(agent, "(make-ready :oven)") == (":NOT-READY", ":OVEN")
+    assert [state(agent, ":neb1"), state(agent, ":oven")] == [":on", ":off"]
+
+
+def test_what_may_help_can_be_told_from_outside(agent: Interpreter) -> None:
+    agent.eval("""
+        (turn-device-off :bus_1553)
+        (setq *device-recovery-function*
+              (lambda (device cause)
+                (and (eq cause :no-power) '((:heater :turn-on) (:camera :turn-on)))))
+        (break-device :acs_gde_ips_x_sw1 :stuck) (setq *sent* nil)
+    """)
+    agent.eval("(make-ready :ega_x)")
+    assert sent(agent)[1:3] == [":heater :turn-on", ":camera :turn-on"]
+
+
+def test_a_second_way_is_taken_if_the_first_cannot_be_made_ready(agent: Interpreter) -> None:
+    agent.eval("""
+        (assert '(talks-thru :camera :radio)) (assert '(powered-thru :radio :neb1))
+        (break-device :bus_1553 :permanent-failure) (sleep 1)
+    """)
+    assert agent.eval("(make-ready :camera)") is Keyword("CAMERA")
+    assert agent.eval("(operate-device :camera)") is True
+
+
+def test_a_way_that_leads_back_is_no_way(agent: Interpreter) -> None:
+    agent.eval("(assert '(talks-thru :a :b)) (assert '(talks-thru :b :a))")
+    assert failure_of(agent, "(make-ready :a)") == (":NOT-READY", ":A")
+
+
+def test_two_tasks_may_make_devices_ready_at_once(agent: Interpreter) -> None:
+    agent.eval("(task-net (a (make-ready :ega_x)) (b (make-ready :camera)))")
+    assert agent.eval("(list (device-ready-p :ega_x) (device-ready-p :camera))") == [True, True]
+
+
+def test_what_there_is_not_cannot_be_made_ready(agent: Interpreter) -> None:
+    assert failure_of(agent, "(make-ready :ega_z)") == (":UNKNOWN-DEVICE", ":EGA_Z", ":EGA_X")
