@@ -32,7 +32,7 @@ class Level:
         self.holds = holds
         self.polls = False  # it is asked after every action
         self.is_stale = False  # what it rests on has changed
-        self.is_branch: bool = outer is not None and outer.is_branch  # others take turns with it, action by action
+        self.is_branch: bool = outer is not None and outer.is_branch  # others take turns with it
         self.live = True
         self.extent = Extent(task.dynamic)
         self.chain: tuple[Level, ...] = (*outer.chain, self) if outer is not None else (self,)

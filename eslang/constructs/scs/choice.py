@@ -348,7 +348,7 @@ class Choice(Asker):
         """Do the steps of one alternative while HOLDS, which asks ON; LEFT if that ended them."""
 
         def body() -> Value:
-            return in_order(mine.steps, False)
+            return mine.steps[0].run() if len(mine.steps) == 1 else in_order(mine.steps, False)
 
         bindings: Bindings = mine.asked.bindings
         return self.run(on, holds, bindings, (lambda: attempt(body)) if attempts else body)

@@ -17,7 +17,7 @@ from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.base.text import String
 from eslang.compile.registry import CL, SCS, function, macro
 from eslang.constructs.conditions import test_form
-from eslang.constructs.scs.asking import run_under
+from eslang.constructs.scs.asking import DEACTIVATED, run_under
 from eslang.constructs.shapes import refuse
 from eslang.runtime import failures
 from eslang.runtime.circuits import begin_action, end_of_action
@@ -48,7 +48,7 @@ class Step(NamedTuple):
     def run(self) -> Value:
         """Do it; then the conditions around are asked, unless an action at its end has done so."""
         value = self.body()
-        if not asks_itself(self.operator):
+        if value is DEACTIVATED or not asks_itself(self.operator):
             end_of_action()
         return value
 
@@ -141,11 +141,13 @@ def persist(body: Callable[[], Value]) -> Value:
 
 
 def in_order(steps: list[Step], starred: bool) -> Value:
-    """Run STEPS; the value of the last one."""
+    """Run STEPS; the value of the last one, NIL if that was deactivated."""
     value: Value = None
     for step in steps:
         value = persist(step.run) if starred else step.run()
-    return value
+    if not steps:
+        end_of_action()
+    return None if value is DEACTIVATED else value
 
 
 # --- actions -------------------------------------------------------------------------
@@ -335,8 +337,6 @@ def do_repeatedly(modifiers: Value, steps: Value, starred: Value) -> Value:
         rounds = running.session.ticks.source
         while True:
             in_order(listed, starred is not None)
-            if not listed:
-                end_of_action()
             next(rounds)
             rounds = running.session.ticks.source
 
