@@ -60,18 +60,19 @@ class StoreFile:
             do("PRAGMA locking_mode = EXCLUSIVE")
             do("PRAGMA page_size = 1024")  # of a new file: what a small transaction writes
             application, version = self._number("application_id"), self._number("user_version")
-            if application == version == 0 and not do("SELECT 1 FROM sqlite_schema").fetchall():
-                self._furnish()
-            elif application != APPLICATION:
+            new = application == version == 0 and not do("SELECT 1 FROM sqlite_schema").fetchall()
+            if not new and application != APPLICATION:
                 raise self.trouble("it is a database of another program")
-            elif version != VERSION:
+            if not new and version != VERSION:
                 raise self.trouble(
                     f"it has format {version}, and this version of eslang knows {VERSION} only"
                 )
-            do("PRAGMA synchronous = NORMAL")
-            do("PRAGMA wal_autocheckpoint = 4000")
             if do("PRAGMA journal_mode = WAL").fetchone()[0] != "wal":
                 raise self.trouble("SQLite cannot write it ahead")
+            do("PRAGMA synchronous = NORMAL")
+            do("PRAGMA wal_autocheckpoint = 4000")
+            if new:
+                self._furnish()
             if do("PRAGMA quick_check(1)").fetchone()[0] != "ok":
                 raise self.trouble("it is damaged")
             do("BEGIN IMMEDIATE")
