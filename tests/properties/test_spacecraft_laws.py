@@ -63,6 +63,7 @@ class Flight:
         if kind == "pause":
             self.agent.eval(f"(sleep {what})")
         elif kind == "break":
+            how = ":stuck" if how == ":tripped" and what != ":neb1" else how  # only a bus trips
             self.agent.eval(f"(break-device {what} {how})")
         else:
             sent = self.hardware.now()
