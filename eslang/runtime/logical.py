@@ -19,7 +19,8 @@ class Logical(NamedTuple):
 
     def within(self, bindings: dict[Symbol, Value], query: Any = None) -> Logical:
         """The same, with more BINDINGS in force, and the innermost QUERY if that is told."""
-        return Logical({**self.bindings, **bindings}, query or self.query, self.inquiry)
+        made = {**self.bindings, **bindings}, query or self.query, self.inquiry
+        return tuple.__new__(Logical, made)  # at each solution of a query: the short way
 
 
 NOTHING_BOUND = Logical({})
