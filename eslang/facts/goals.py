@@ -7,7 +7,7 @@ once. From the tokens come the goals, with numbered places for the constants.
 
 from __future__ import annotations
 
-from eslang.base.failure import Failure, simple_error, type_error
+from eslang.base.failure import STACK_EXHAUSTED, Failure, simple_error, type_error
 from eslang.base.hints import Any, NamedTuple
 from eslang.base.lists import Cons, items
 from eslang.base.symbols import Keyword, Symbol, Value
@@ -17,6 +17,7 @@ from eslang.facts.unify import is_variable
 CL = "COMMON-LISP"
 AND, OR, NOT = (Symbol.intern(name, CL) for name in ("AND", "OR", "NOT"))
 UNBOUND = Keyword("UNBOUND-LOGIC-VARIABLE")
+DEEPEST = 500  # goals and terms with variables inside one another; what is made of them uses the C stack
 FEW = range(200)  # terms; longer queries are rare, and some have no end
 CONNECTIVES = frozenset((AND, OR, NOT))
 ANYTHING = "?_"
@@ -120,12 +121,14 @@ def read_query(query: Value, given: Given = NOTHING_GIVEN) -> tuple[Tokens, Cons
     """The tokens of QUERY and its constants; variables that are GIVEN count as constants."""
     tokens: list[Any] = []
     constants: Constants = []
-    _read_goal(query, given, tokens, constants)
+    _read_goal(query, given, tokens, constants, DEEPEST)
     tokens.pop()  # the last list's end is the query's
     return tuple(tokens), constants
 
 
-def _read_goal(goal: Value, given: Given, tokens: list[Any], constants: Constants) -> None:
+def _read_goal(goal: Value, given: Given, tokens: list[Any], constants: Constants, room: int) -> None:
+    if not room:
+        raise Failure(STACK_EXHAUSTED)
     if goal.__class__ is not Cons:
         raise type_error(goal, "LIST")
     name = goal.car
@@ -135,21 +138,21 @@ def _read_goal(goal: Value, given: Given, tokens: list[Any], constants: Constant
     parts = items(goal.cdr)
     if name in CONNECTIVES:
         if name is NOT and len(parts) != 1:
-            raise simple_error("NOT is said of one goal, not of ~D: ~S", len(parts), goal)
+            raise simple_error("NOT takes one query, found", goal)
         for part in parts:
-            _read_goal(part, given, tokens, constants)
+            _read_goal(part, given, tokens, constants, room - 1)
     else:
         for part in parts:
             kind = part.__class__
             if kind not in DIRECT or (kind is Symbol and part.name[:1] == "?"):
-                _read_term(part, given, tokens, constants)
+                _read_term(part, given, tokens, constants, room - 1)
             else:
                 tokens.append(CONSTANT)
                 constants.append(part)
     tokens.append(CLOSE)
 
 
-def _read_term(term: Value, given: Given, tokens: list[Any], constants: Constants) -> None:
+def _read_term(term: Value, given: Given, tokens: list[Any], constants: Constants, room: int) -> None:
     if is_variable(term):
         if term in given and term.name != ANYTHING:
             tokens.append(GIVEN)
@@ -160,14 +163,16 @@ def _read_term(term: Value, given: Given, tokens: list[Any], constants: Constant
     if variable_in(code) is None:
         tokens.append(CONSTANT)
         constants.append(code)
+    elif not room:
+        raise Failure(STACK_EXHAUSTED)
     else:
         tokens.append(OPEN)
         while term.__class__ is Cons:
-            _read_term(term.car, given, tokens, constants)
+            _read_term(term.car, given, tokens, constants, room - 1)
             term = term.cdr
         if term is not None:
             tokens.append(LAST)
-            _read_term(term, given, tokens, constants)
+            _read_term(term, given, tokens, constants, room - 1)
         tokens.append(CLOSE)
 
 

@@ -44,6 +44,7 @@ FAILING = {
     "(db-query '(lamp #?x))": ":UNBOUND-VARIABLE ?X",
     "(db-query '(not (lamp ?x)))": ":UNBOUND-LOGIC-VARIABLE ?X (NOT (LAMP ?X))",
     "(db-query '(> ?x 3))": ":UNBOUND-LOGIC-VARIABLE ?X (> ?X 3)",
+    "(db-query '(not (a 1) (b 2)))": ":ERROR NOT takes one query, found (NOT (A 1) (B 2))",
     '(defrelation "lamp")': ':TYPE-ERROR "lamp" SYMBOL',
     "(defrelation and (a b))": ":TYPE-ERROR AND RELATION",
     "(defproperty not)": ":TYPE-ERROR NOT RELATION",

@@ -87,3 +87,13 @@ def test_a_method_may_have_subgoals_and_alternatives_from_the_database() -> None
     (print (achieve (lit hall)))
     """
     assert lines_of(text) == ["L2", "T"]
+
+
+def test_goals_may_be_made_of_goals() -> None:
+    text = f"""
+    {POWER}
+    (to-achieve (and ?first ?second) (t (achieve #?first) (achieve #?second)))
+    (print (achieve (and (power-state a :on) (power-state b :on))))
+    (print (achieve (and (power-state a :on) (power-state b :on))))
+    """
+    assert lines_of(text) == ["(A :ON)", "(B :ON)", "T", "NIL"]
