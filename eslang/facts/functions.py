@@ -56,8 +56,8 @@ class Compiled(NamedTuple):
 def compile_query(question: Question, kind: str) -> Compiled:
     """The function that answers QUESTION: with all answers, the first, or one at a time."""
     source = Source()
-    main = _main(source, question, kind)
     procs = reached_from(question.steps)
+    main = _main(source, question, kind, any(map(_is_tabled, procs)))
     for proc in procs:
         _proc(source, proc)
     text = _factory(source, question, procs, main)
@@ -104,7 +104,7 @@ def _is_tabled(proc: Proc) -> bool:
     return bool(proc.circle) and not proc.is_linear()
 
 
-def _main(source: Source, question: Question, kind: str) -> str:
+def _main(source: Source, question: Question, kind: str, is_tabling: bool) -> str:
     """The query's own function; its name."""
     way = WAYS[kind]
     constants = tuple(f"c{number}" for number in range(question.places))
@@ -123,8 +123,10 @@ def _main(source: Source, question: Question, kind: str) -> str:
     body.lines += [*way.begin, *(("seen = set()",) if is_sifted else ())]
     body.emit(question.steps, dict(question.given), 0)
     lines = [*body.lines, *way.end]
-    if kind != LAZY:
-        lines = ["try:", *_inner(lines), "finally:", "    if left:", "        end(main)"]
+    ends = ["if left:", "    end(view)"] if kind != LAZY else []
+    ends += ["tables.clear()"] if is_tabling else []  # no garbage in circles
+    if ends:
+        lines = ["try:", *_inner(lines), "finally:", *_inner(ends)]
     source.add(f"def main({', '.join(constants)}):", lines)
     return "main"
 

@@ -80,10 +80,9 @@ class Plan:
 
         def pause() -> None:
             self.forget_runs()  # what paused is for the query that it answers
-            self.pauses.leave(run, view)
+            self.pauses.leave(view)
 
-        run = compiled.make(view, self.call, Pace(self.pauses, pause))
-        return run
+        return compiled.make(view, self.call, Pace(self.pauses, pause))
 
     def forget_runs(self) -> None:
         """What was kept to run again is not to be."""

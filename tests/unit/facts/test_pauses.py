@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -12,6 +13,7 @@ from eslang.facts.views import SLICE
 MANY = 3 * SLICE + 1
 REACH = ("((reach ?x ?y) (next ?x ?y))", "((reach ?x ?y) (next ?x ?z) (reach ?z ?y))")
 BACK = ("((reach ?x ?y) (next ?x ?y))", "((reach ?x ?y) (reach ?x ?z) (next ?z ?y))")
+TWICE = ("((reach ?x ?y) (next ?x ?y))", "((reach ?x ?y) (reach ?x ?z) (reach ?z ?y))")
 
 
 class Busy(Asking):
@@ -158,3 +160,26 @@ def test_nobody_has_a_turn_while_a_change_is_told(chain: Busy) -> None:
     chain.subscribe(lambda change: chain.all(read("(next ?x ?y)")))
     chain.add(read("(next new newer)"))
     assert (chain.count, len(looks)) == (0, 3)
+
+
+@pytest.mark.parametrize("rules", [REACH, BACK, TWICE], ids=["walked", "tabled", "transitive"])
+@pytest.mark.parametrize("how", ["all", "first", "ask", "solutions"])
+def test_a_query_leaves_no_circles_of_references(rules: tuple[str, ...], how: str) -> None:
+    facts = Asking(*(f"(next {number} {number + 1})" for number in range(50)))
+    for rule in rules:
+        facts.rule(rule)
+    query = read("(reach 0 ?y)")
+
+    def ask() -> None:
+        found = getattr(facts, how)(query)
+        if how == "solutions":
+            next(found)
+
+    ask()
+    gc.collect()
+    gc.disable()
+    try:
+        ask()
+        assert gc.collect() == 0
+    finally:
+        gc.enable()
