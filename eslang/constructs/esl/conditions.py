@@ -146,7 +146,9 @@ def is_operator(symbol: Symbol, environment: Any) -> bool:
 
 def is_constant(term: Value) -> bool:
     """Whether TERM means the same in a query and in a call."""
-    return (term.__class__ is not Cons and term.__class__ is not Symbol) or is_variable(term)
+    if term.__class__ is Cons:
+        return term.car is QUOTE and not has_variables(term.cdr)
+    return term.__class__ is not Symbol or is_variable(term)
 
 
 def if_called(operator: Symbol, call: Value, query: Value) -> Value:

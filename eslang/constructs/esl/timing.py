@@ -112,7 +112,8 @@ def wait_until(form: Cons, environment: Any) -> Value:
     """Wait until CONDITION holds; not at all if it does.
 
     A condition over facts is looked at again when a fact that it rests on has
-    changed, and never else. One that calls Lisp is looked at again whenever
+    changed, and never else; comparisons of what facts say do not count as
+    calls. One that calls Lisp is looked at again whenever
     another task has made a step; if it calls a primitive, on the real clock,
     also as time passes.
 

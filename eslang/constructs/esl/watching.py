@@ -36,7 +36,6 @@ class Inquiry:
         """A query had this SOLUTION, for which it read that."""
         from eslang.facts.watching import watch
 
-        self.asked_lisp = self.asked_lisp or reads.asked_lisp
         self.bindings.update(solution or {})
         self.relations.update(dict.fromkeys(name for name, _ in reads.relations()))
         self.watches.append(watch(reads, self.stir))

@@ -93,6 +93,44 @@ def test_a_condition_is_asked_again_when_what_it_rests_on_has_changed(
     assert (asked.lines, asked.count) == ([":WOKEN"], count)
 
 
+STEADY = """
+(defvar *limit* 15)
+(defun big (x) (> x 15))
+(defrule (high ?x) (n ?x) (> ?x 15))
+(assert '(n 1))
+"""
+
+
+@pytest.mark.parametrize(
+    ("condition", "count"),
+    [
+        ("(and (n ?x) (> ?x 15))", 2),
+        ("'(and (n ?x) (> ?x 15))", 2),
+        ("(high ?x)", 2),
+        ("(and (n ?x) (not (< ?x 15)))", 2),
+        ("(and (n ?x) (eql ?x '20))", 2),
+        ("(and (n ?x) (member ?x '(20 30)))", 2),
+        ("'(and (n ?x) (> ?x (+ 5 10)))", 2),
+        ("(and (n ?x) (not (= ?x 1)) (big ?x))", 2),  # BIG was not asked before there was another N
+        # what these ask may change at any step
+        ("(and (n ?x) (> ?x *limit*))", 8),
+        ("'(and (n ?x) (> ?x *limit*))", 8),
+        ("(and (n ?x) (big ?x))", 8),
+        ("'(and (n ?x) (member ?x '(20) :test 'same))", 8),
+    ],
+)
+def test_a_comparison_does_not_ask_lisp(condition: str, count: int) -> None:
+    text = f"""
+    {STEADY}
+    (defun same (a b) (= a b))
+    (task-net
+      (waiter (wait-until {condition}) (print :woken))
+      (world {MOVES} (sleep 1) (assert '(n 20))))
+    """
+    asked = Questions(text)
+    assert (asked.lines, asked.count) == ([":WOKEN"], count)
+
+
 def test_of_many_waiting_tasks_only_the_one_concerned_asks_again() -> None:
     text = """
     (let ((tasks (loop for i from 0 below 100
