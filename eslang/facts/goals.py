@@ -18,7 +18,6 @@ CL = "COMMON-LISP"
 AND, OR, NOT = (Symbol.intern(name, CL) for name in ("AND", "OR", "NOT"))
 UNBOUND = Keyword("UNBOUND-LOGIC-VARIABLE")
 DEEPEST = 500  # goals and terms with variables inside one another; what is made of them uses the C stack
-FEW = range(200)  # terms; longer queries are rare, and some have no end
 CONNECTIVES = frozenset((AND, OR, NOT))
 ANYTHING = "?_"
 
@@ -84,37 +83,6 @@ class Never(NamedTuple):
 
 
 Goal = Atom | Both | Either | Never
-
-
-def quick_tokens(query: Value, constants: Constants) -> Tokens | None:
-    """What read_query says of plain patterns, and quickly; None or tokens that nobody knows for all else.
-
-    Most queries say something of symbols, integers and variables. Nothing is
-    checked here: queries that are wrong have no plan that these tokens find.
-    """
-    try:
-        tokens = [query.car]
-        rest = query.cdr
-        for _ in FEW:
-            if rest is None:
-                return tuple(tokens)
-            term = rest.car
-            kind = term.__class__
-            if kind is Symbol and "?" <= term.name < "@":
-                tokens.append(term)
-            elif kind in DIRECT:
-                tokens.append(CONSTANT)
-                constants.append(term)
-            else:
-                inner = quick_tokens(term, constants) if tokens[0] in CONNECTIVES else None
-                if inner is None:
-                    return None
-                tokens += inner
-                tokens.append(CLOSE)
-            rest = rest.cdr
-    except AttributeError:  # no list
-        pass
-    return None
 
 
 def read_query(query: Value, given: Given = NOTHING_GIVEN) -> tuple[Tokens, Constants]:

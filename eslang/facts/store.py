@@ -16,8 +16,6 @@ from eslang.facts.goals import (
     CONNECTIVES,
     Atom,
     Constants,
-    Tokens,
-    quick_tokens,
     read_query,
     shape_of,
     unbound,
@@ -27,6 +25,7 @@ from eslang.facts.journal import Journal
 from eslang.facts.patterns import Pattern
 from eslang.facts.properties import overruled, unique_positions
 from eslang.facts.relations import Relation
+from eslang.facts.shapes import END, Shapes, behind
 from eslang.facts.terms import DIRECT, Code, Row, code_of, fact_of
 from eslang.facts.unify import is_variable
 from eslang.facts.watching import Change, Watch, woken_by
@@ -47,7 +46,7 @@ class Store:
         self.audience: Sequence[object] = ()  # while there is one, TELL is called with each change, too
         self.tell: Subscriber = lambda change: None
         self.journal: Journal | None = None
-        self._patterns: dict[Tokens | None, Pattern] = {}  # that were asked for by RETRACT and UPDATE
+        self._patterns = Shapes()  # that were asked for by RETRACT and UPDATE
         self._changes: list[tuple[Relation, Change]] = []  # parts of a change that is not whole yet
         self._calls: list[tuple[Callable[[Any], object], Change | None]] = []  # that are due
         self.is_telling = False
@@ -173,7 +172,7 @@ class Store:
     def matching(self, pattern: Value) -> tuple[Relation, list[Row]]:
         """The relation that PATTERN is about, and its rows that match, in order."""
         constants: Constants = []
-        found = self._patterns.get(quick_tokens(pattern, constants))
+        found: Pattern | None = behind(self._patterns.root, pattern, constants).get(END)
         if found is None:
             tokens, constants = read_query(pattern)
             atom = shape_of(tokens).goal
@@ -182,7 +181,8 @@ class Store:
             relation = self.relation(atom.name, len(atom.terms))
             if len(self._patterns) >= MANY:
                 self._patterns.clear()
-            found = self._patterns[tokens] = Pattern(relation, atom.terms)
+            found = Pattern(relation, atom.terms)
+            self._patterns.put(tokens, found)
         return found.relation, found.rows(constants)
 
     def declare_property(self, name: Symbol) -> None:
