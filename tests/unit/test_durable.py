@@ -284,6 +284,14 @@ def test_what_could_not_be_written_to_the_end_is_told_when_the_interpreter_close
     assert held(make()) == []
 
 
+def test_a_call_in_an_asyncio_loop_whose_changes_cannot_be_written_fails(make: Make) -> None:
+    agent = make()
+    disk = Full(agent)
+    with pytest.raises(Failure, match="the disk is full"):
+        asyncio.run(agent.call_async("assert", [Symbol("A"), 1]))
+    disk.full = False
+
+
 def test_a_change_from_python_that_cannot_be_written_fails(make: Make) -> None:
     agent = make()
     Full(agent)
