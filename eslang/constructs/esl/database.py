@@ -188,11 +188,15 @@ def _declare(name: Value, arguments: Value) -> None:
         running.session.database.declare(name)
     elif arguments.__class__ is int and arguments >= 0:
         running.session.database.declare(name, arguments)
-    elif arguments.__class__ is Cons and all(isinstance(each, Symbol) for each in items(arguments)):
+    elif arguments.__class__ is Cons and all(map(_is_name, items(arguments))):
         names = tuple(items(arguments))
         running.session.database.declare(name, len(names), names)
     else:
         raise type_error(arguments, "LIST")
+
+
+def _is_name(argument: Value) -> bool:
+    return isinstance(argument, Symbol) and not argument.name.startswith("&")
 
 
 @macro("(defrule head &body body)", ESL)

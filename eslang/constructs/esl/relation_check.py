@@ -87,7 +87,12 @@ class RelationCheck(Judge):
     def unknown(self, mention: Mention) -> Iterator[Diagnostic]:
         """Nothing declares, derives or asserts what is asked."""
         name, is_condition = mention.name, mention.how == CONDITION
-        if self.is_operator(name) or is_of_library(name):
+        if is_of_library(name):
+            return
+        if self.is_operator(name):
+            if not is_condition and not hasattr(self.image.cell(name), "function"):
+                what = f"there is no relation `{shown(name)}`, and a macro is no test"
+                yield warning("unknown-relation", what, mention, "put it into a function, and ask that")
             return
         known = [each.name for each in (*self.known, *filter(is_of_library, self.accessible()))]
         functions = [] if not is_condition else [s.name for s in self.accessible() if self.is_operator(s)]

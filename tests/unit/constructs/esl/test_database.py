@@ -50,6 +50,7 @@ FAILING = {
     "(defproperty not)": ":TYPE-ERROR NOT RELATION",
     "(defproperty ?x)": ":TYPE-ERROR ?X RELATION",
     "(defrelation lamp -1)": ":TYPE-ERROR -1 LIST",
+    "(defrelation lamp (room &optional state))": ":TYPE-ERROR (ROOM &OPTIONAL STATE) LIST",
     '(defrelation lamp ("x"))': ':TYPE-ERROR ("x") LIST',
     "(defproperty 5)": ":TYPE-ERROR 5 SYMBOL",
     "(defrule lit (lamp ?x))": ":TYPE-ERROR LIT LIST",
