@@ -17,7 +17,7 @@ from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Iterator, 
 from eslang.base.resolve import resolve_in
 from eslang.base.symbols import Symbol, Value
 from eslang.constructs.esl.queries import in_force
-from eslang.facts.goals import read_query
+from eslang.facts.goals import ANYTHING, read_query
 from eslang.facts.query import Facts
 from eslang.facts.store import Store
 from eslang.facts.unify import is_variable
@@ -293,7 +293,8 @@ def bindings_of(wording: Wording, query: Value, given: dict[str, Any]) -> dict[S
     """The values of the variables of QUERY that are GIVEN by what Python calls them."""
     if not given:
         return {}
-    variables = {key_of(token): token for token in read_query(query)[0] if is_variable(token)}
+    tokens = [token for token in read_query(query)[0] if is_variable(token) and token.name != ANYTHING]
+    variables = {key_of(token): token for token in tokens}
     named = {key.replace("-", "_"): variable for key, variable in variables.items()} | variables
     unknown = [key for key in given if key not in named]
     if unknown:

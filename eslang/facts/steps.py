@@ -89,6 +89,14 @@ class Arranger:
         self.resolve = resolve  # the relation that an atom is about; None: it is a test
         self.rules = rules  # what answers by rules, or None (procs.py); fails where they cannot run
         self.constants = constants
+        self._ways: dict[tuple[int, Bound], Steps] = {}  # for goals that stand alone, by their identity
+
+    def _way(self, goal: Goal, bound: Bound) -> Steps:
+        """The steps for GOAL alone: who wants to know whether it can be asked has them made already."""
+        found = self._ways.get((id(goal), bound))
+        if found is None:
+            found = self._ways[id(goal), bound] = self.arrange((goal,), bound)
+        return found
 
     def arrange(self, goals: tuple[Goal, ...], bound: Bound) -> Steps:
         """The steps for GOALS, when BOUND variables have values."""
@@ -99,11 +107,14 @@ class Arranger:
             goal = left.pop(number)
             if isinstance(goal, Either) and not self._is_decided(goal, bound):
                 rest = tuple(left)
-                branch = Branch(goal, tuple(self.arrange((each, *rest), bound) for each in goal.goals))
-                return [*steps, branch]
+                if rest:
+                    ways = tuple(self.arrange((each, *rest), bound) for each in goal.goals)
+                else:
+                    ways = tuple(self._way(each, bound) for each in goal.goals)
+                return [*steps, Branch(goal, ways)]
             steps.append(self._step(goal, bound))
             if isinstance(goal, Atom):
-                bound |= variables_of(goal).keys()
+                bound = bound.union(variables_of(goal))
         return steps
 
     def _step(self, goal: Goal, bound: Bound) -> Step:
@@ -111,7 +122,7 @@ class Arranger:
         if isinstance(goal, Never):
             return Absent(goal, self.arrange((goal.goal,), bound))
         if isinstance(goal, Either):
-            return Present(goal, tuple(self.arrange((each,), bound) for each in goal.goals))
+            return Present(goal, tuple(self._way(each, bound) for each in goal.goals))
         assert isinstance(goal, Atom)
         relation = self.resolve(goal)
         if relation is None:
@@ -140,7 +151,7 @@ class Arranger:
         try:
             if isinstance(goal, Either):
                 for each in goal.goals:
-                    self.arrange((each,), bound)
+                    self._way(each, bound)
                 return None
             relation = self.resolve(goal) if isinstance(goal, Atom) else None
             if relation is not None:

@@ -300,3 +300,22 @@ def test_an_explanation_tells_plan_and_indexes() -> None:
         ("HEALTH-STATE", (1,)),
         ("IS-A", (0,)),
     ]
+
+
+@pytest.mark.parametrize("part", ["(or (p 2) {})", "(not {})", "(and (p 1) {})", "(or (p 2) (and (p 1) {}))"])
+def test_goals_deep_inside_one_another_are_planned_once_each(part: str) -> None:
+    facts, query = Asking("(p 1)"), "(p 1)"
+    for _ in range(40):
+        query = part.format(query)
+    assert facts.answers(query) == [""]
+    assert facts.answers(query.replace("(p 1)", "(p ?x)") if "not" not in part else query) != []
+
+
+def test_what_is_too_deep_for_a_query_is_a_failure() -> None:
+    term, goal, p, no = read("?x"), read("(p 1)"), read("p"), read("not")
+    for _ in range(2_000):
+        term, goal = Cons(term, None), Cons(no, Cons(goal, None))
+    for query in (Cons(p, Cons(term, None)), goal):
+        with pytest.raises(Failure) as caught:
+            Asking().all(query)
+        assert caught.value.cause.name == "STACK-EXHAUSTED"
