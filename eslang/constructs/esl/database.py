@@ -205,13 +205,14 @@ def defrule(form: Cons, environment: Any) -> Value:
 
     Several rules may derive one relation, and a rule may ask what it derives:
     a question ends even if facts lead around in circles. The same rule again
-    changes nothing; FORGET-RULES takes rules back.
+    changes nothing; FORGET-RULES takes rules back. If BODY leaves a variable
+    without the value that HEAD, NOT or a test needs, and the question does not
+    give it either, asking fails with :unbound-logic-variable.
 
     Returns: the relation of HEAD.
     Fails:   :unstratified-rules, with the relations on the way around, if HEAD
-             would depend on its own absence;
-             :unbound-logic-variable if BODY leaves a variable without the
-             value that HEAD, NOT or a test needs.
+             would depend on its own absence; :type-error if HEAD or an element
+             of BODY is no query.
 
     Example:
         ? (defrule (reaches ?x ?y) (path ?x ?y))
