@@ -124,7 +124,7 @@ class Wording:
 
 
 def is_atom(reading: Reading, text: str) -> bool:
-    """Whether READING is an atom that may be meant elsewhere, too, and all of TEXT: no comment is beside it."""
+    """Whether READING is an atom that can be named again, and all of TEXT: no comment stands beside it."""
     end = text.count("\n") + 1, len(text) - text.rfind("\n")
     is_whole = reading.span[1:] == (1, 1, *end)
     return is_whole and reading.form.__class__ not in (Cons, Vector) and not text.startswith("#:")
