@@ -75,7 +75,7 @@ class Planner:
         self.rules_of = rules_of
         self.constants = list(constants)  # the query's, and then those of the rules
         self.procs: dict[tuple[Relation, Positions, bool], Proc] = {}
-        self.tests: dict[Symbol, None] = {}  # what of Lisp is asked
+        self.needs: dict[Relation, set[Name]] = {}
 
     def plan(self, shape: Shape) -> Steps:
         """The steps for a query."""
@@ -110,7 +110,22 @@ class Planner:
         return rules
 
     def _arranger(self, about: Relation | None = None) -> Arranger:
-        return Arranger(self.resolve, self.proc, self.constants, about)
+        def returns(relation: Relation) -> bool:
+            return about is not None and (about.name, about.arity) in self._needs(relation)
+
+        return Arranger(self.resolve, self.proc, self.constants, about, returns)
+
+    def _needs(self, relation: Relation) -> set[Name]:
+        """RELATION, and what its rules need, directly or not."""
+        found = self.needs.get(relation)
+        if found is None:
+            pending = [(relation.name, relation.arity)]
+            found = self.needs[relation] = set(pending)
+            for name in pending:
+                asked = dict.fromkeys(need.name for rule in self.rules_of(name) for need in rule.needs)
+                pending += [each for each in asked if each not in found]
+                found.update(asked)
+        return found
 
     def _clause(self, rule: Rule, positions: Positions) -> Clause:
         """How RULE answers when what stands at POSITIONS of its head is known."""

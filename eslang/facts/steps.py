@@ -84,8 +84,10 @@ class Arranger:
         rules: Callable[[Relation, Positions, bool], Any],
         constants: Constants,
         about: Relation | None = None,
+        returns: Callable[[Relation], bool] = lambda relation: False,
     ) -> None:
         self.about = about  # what the rule derives, if these are the goals of a rule
+        self.returns = returns  # whether a question for a relation may lead back to what the rule derives
         self.resolve = resolve  # the relation that an atom is about; None: it is a test
         self.rules = rules  # what answers by rules, or None (procs.py); fails where they cannot run
         self.constants = constants
@@ -127,8 +129,16 @@ class Arranger:
         relation = self.resolve(goal)
         if relation is None:
             return Test(goal)
-        proc = self.rules(relation, asked_positions(goal, bound), goal.is_direct)
+        proc = self._proc(relation, goal, bound)
         return Look(goal, relation, known_positions(goal, bound) if proc is None else proc.positions, proc)
+
+    def _proc(self, relation: Relation, goal: Atom, bound: Bound) -> Any:
+        """What answers GOAL by rules; it is not told terms that the question makes, if it might never end."""
+        known = known_positions(goal, bound)
+        plain = tuple(place for place in known if not isinstance(goal.terms[place], Nested))
+        if plain != known and self.returns(relation):
+            known = plain
+        return self.rules(relation, known, goal.is_direct)
 
     def _next(self, left: list[Goal], bound: Bound) -> int:
         """Which goal comes next; fails if none is ready."""
@@ -156,7 +166,7 @@ class Arranger:
             relation = self.resolve(goal) if isinstance(goal, Atom) else None
             if relation is not None:
                 assert isinstance(goal, Atom)
-                self.rules(relation, asked_positions(goal, bound), goal.is_direct)
+                self._proc(relation, goal, bound)
                 return None
         except Failure as failure:
             if failure.cause is not UNBOUND:
@@ -213,12 +223,6 @@ def _flat(goals: tuple[Goal, ...]) -> list[Goal]:
 def known_positions(atom: Atom, bound: Bound) -> Positions:
     """Where terms of ATOM stand that are known when BOUND variables have values."""
     return tuple(place for place, term in enumerate(atom.terms) if is_known(term, bound))
-
-
-def asked_positions(atom: Atom, bound: Bound) -> Positions:
-    """The same, where rules are asked: without terms that the question makes, or it might never end."""
-    known = known_positions(atom, bound)
-    return tuple(place for place in known if not isinstance(atom.terms[place], Nested))
 
 
 def is_known(term: Term, bound: Bound) -> bool:
