@@ -82,7 +82,7 @@ def near_name(failure: Failure, interp: Any) -> str | None:
     if not isinstance(symbol, Symbol):
         return None
     if symbol.name.startswith("?") and failure.cause is UNBOUND_VARIABLE:
-        return f"`#{symbol.name.lower()}` is its value, inside a form that binds it (with-query-bindings, say)"
+        return f"`#{symbol.name.lower()}` is its value, in a form that binds it (with-query-bindings, say)"
     package = package_with(symbol, interp)
     if package is not None:
         return (

@@ -269,4 +269,4 @@ def test_a_name_that_a_package_does_not_use_is_found_in_another(tmp_path: Path) 
     ],
 )
 def test_a_logic_variable_that_is_unbound_gets_a_hint(text: str) -> None:
-    assert "hint  `#?place` is its value, inside a form that binds it" in call(["run", "-e", text]).err
+    assert "hint  `#?place` is its value, in a form that binds it" in call(["run", "-e", text]).err
