@@ -121,9 +121,10 @@ class Interpreter:
             library.export(self.image, symbol)
 
     def compiler(self, name: str) -> Compiler:
-        """A compiler for one text; the first one brings the special forms along."""
+        """A compiler for one text; the first one brings the special forms and all of the library along."""
         from eslang.compile.toplevel import Compiler
 
+        self.texts.load_later()
         library.furnish_special_forms(self.image)
         return Compiler(self.image, self.support, name)
 

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import os
 
+from eslang.base.hints import Iterable
+
 LISP = [
     "predicates",
     "types",
@@ -84,10 +86,25 @@ FILES = [
     "tasks",
     "widgets",
     "recovery",
+    "devices",
     "spacecraft",
     "configuration",
     "testing",
 ]
+LATER = (  # of these, those with functions, macros, and what only macros use: they can wait (later.py)
+    "control",
+    "places",
+    "place-kinds",
+    "loop-variables",
+    "loop",
+    "declarations",
+    "types",
+    "packages",
+    "structures",
+    "recovery",
+    "spacecraft",
+    "configuration",
+)
 
 
 def import_rooms() -> None:
@@ -103,7 +120,7 @@ def stdlib_folder() -> str:
     return inside if os.path.isdir(inside) else os.path.join(os.path.dirname(package), "stdlib")
 
 
-def stdlib_files() -> list[str]:
-    """The files of stdlib/, in the order in which they are loaded."""
+def stdlib_files(names: Iterable[str] = FILES) -> list[str]:
+    """The files of stdlib/ of these NAMES, in the order in which they are loaded."""
     folder = stdlib_folder()
-    return [os.path.join(folder, f"{name}.esl") for name in FILES]
+    return [os.path.join(folder, f"{name}.esl") for name in names]

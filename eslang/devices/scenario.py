@@ -57,7 +57,7 @@ def read_scenario(agent: Interpreter, path: str) -> Scenario:
 def scenario_of(agent: Interpreter, source: Source) -> Scenario:
     """The scenario that a text is. Raises EslError."""
     with agent.at_work():
-        known = names_in(agent.facts) | names_of(agent.value("esl::*spacecraft*"))
+        known = names_in(agent.facts) | names_of(agent.call("esl::%spacecraft-facts"))
         forms = [
             (Page(agent, reading.spans, reading.span, known), reading.form)
             for reading in agent.readings(source)
