@@ -31,12 +31,13 @@ class Clause(NamedTuple):
 class Proc:
     """How to answer for RELATION when the terms at POSITIONS are known."""
 
-    __slots__ = ("circle", "clauses", "failure", "number", "positions", "relation")
+    __slots__ = ("circle", "clauses", "failure", "is_direct", "number", "positions", "relation")
 
-    def __init__(self, number: int, relation: Relation, positions: Positions) -> None:
+    def __init__(self, number: int, relation: Relation, positions: Positions, is_direct: bool) -> None:
         self.number = number
         self.relation = relation
         self.positions = positions
+        self.is_direct = is_direct  # whether it leaves transitive rules to those that ask
         self.clauses: list[Clause] = []
         self.circle: frozenset[Proc] = frozenset()  # those that need this one and are needed by it
         self.failure: Failure | None = None  # why the rules cannot run like this
@@ -90,7 +91,8 @@ class Planner:
             return None
         proc = self.procs.get((relation, positions, is_direct))
         if proc is None:
-            proc = self.procs[relation, positions, is_direct] = Proc(len(self.procs), relation, positions)
+            proc = Proc(len(self.procs), relation, positions, is_direct)
+            self.procs[relation, positions, is_direct] = proc
             try:
                 proc.clauses = [self._clause(rule, positions) for rule in rules]
             except Failure as failure:
