@@ -84,8 +84,10 @@ class Claim:
         return next(iter(self.subscriptions), None)
 
     def persists(self) -> bool:
-        """True if it has subscribers that are not on their way out of everything."""
-        return any(each.task.ending is None for each in self.subscriptions)
+        """True if it has subscribers that are not on their way out of everything, or wait for it even so."""
+        if self.violation is not None and self.violation.waits:
+            return True
+        return any(each.task.ending is None or each.wait is not None for each in self.subscriptions)
 
     def stand(self, standing: str, now: float) -> None:
         """From NOW on it is STANDING so."""

@@ -51,6 +51,7 @@ class Maintenance:
         self.recover = recover
         self.suspects: dict[Claim, None] = {}  # what may not be as it was when it was looked at
         self.daemon: Task | None = None
+        self.waiting: dict[Task, Claim] = {}  # who waits for which recovery
 
     # --- watching ----------------------------------------------------------------
 
@@ -137,7 +138,9 @@ class Maintenance:
         if not claim.subscriptions or claim.standing not in (ACHIEVED, VIOLATED):
             return
         holds = self.look(claim)
-        if claim.standing is ACHIEVED and not holds:
+        if claim.standing is ACHIEVED and holds:
+            self.locks.meet(claim)
+        elif claim.standing is ACHIEVED:
             self.violate(claim)
         elif claim.standing is VIOLATED and holds:
             self.restore(claim)
@@ -253,21 +256,35 @@ class Maintenance:
     def wait_for_recovery(self, wanted: Property) -> None:
         """Wait until the violation of what is WANTED, which the current task was told of, is over.
 
-        Fails with :unrecoverable-property-violation if it was not restored.
+        Not if those who are to restore it need the task itself, as where it achieves
+        another value of the same property. Fails with :unrecoverable-property-violation
+        if it was not restored.
         """
         task = self.scheduler.at_work()
         claim, violation = self._violation_of(task, wanted)
         if claim is None or violation is None:
             return
         if not violation.is_over and not self.holds_again(claim):
-            wait = Wait(task, "recovery", wanted.form)
-            violation.waits[wait] = None
-            try:
-                self.scheduler.wait(wait)
-            finally:
-                del violation.waits[wait]
+            self._wait(task, claim, violation)
         if violation.failure is not None:
             failures.signal(violation.failure(), continuable=True)
+
+    def _wait(self, task: Task, claim: Claim, violation: Violation) -> None:
+        """Let TASK wait until VIOLATION, one of CLAIM, is over."""
+        busy = claim.lock.busy
+        if busy is not None and self.locks.path(busy, task) is not None:
+            return
+        wait = Wait(task, "recovery", claim.property.form)
+        if claim.standing is VIOLATED:
+            self.suspect(claim)
+        outer = self.waiting.get(task)
+        violation.waits[wait], self.waiting[task] = None, claim
+        try:
+            self.scheduler.wait(wait)
+        finally:
+            del violation.waits[wait], self.waiting[task]
+            if outer is not None:
+                self.waiting[task] = outer
 
     def _violation_of(self, task: Task, wanted: Property) -> tuple[Claim | None, Violation | None]:
         """The last violation of what is WANTED: the one that concerns TASK, if any does."""
@@ -282,9 +299,9 @@ class Maintenance:
 
     def holds_again(self, claim: Claim) -> bool:
         """True if CLAIM, which was achieved once, turns out to hold; it is restored, if it was violated."""
-        if claim.lock.busy is not None or not self.look(claim):
+        if claim.standing is RECOVERING or not self.look(claim):
             return False
-        if claim.standing is VIOLATED and claim.lock.busy is None:
+        if claim.standing is VIOLATED:
             self.restore(claim)
         return claim.standing is ACHIEVED
 

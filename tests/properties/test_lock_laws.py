@@ -1,0 +1,47 @@
+"""Laws of property locks (ARM §4), on plans by chance, whoever has the turn."""
+
+from __future__ import annotations
+
+import random
+from io import StringIO
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from locking.plans import bodies, body_of, method_of, methods
+from locking.schedules import judged
+from locking.world import World
+
+from eslang import Interpreter
+from eslang.base.control import Stop
+
+pytestmark = pytest.mark.slow
+RELAXED = settings(
+    max_examples=400, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
+)
+
+
+@pytest.fixture(scope="module")
+def interp() -> Interpreter:
+    """One interpreter for all plans: each leaves nothing behind."""
+    return Interpreter(clock="virtual", output=StringIO())
+
+
+@RELAXED
+@given(todo=bodies, ways=methods, recoveries=methods, seed=st.integers(0, 2**32))
+def test_no_plan_leaves_or_misses_anything(
+    interp: Interpreter, todo: Any, ways: Any, recoveries: Any, seed: int
+) -> None:
+    """No contradiction, no dead subscriber, no violation unnoticed, nothing left, and nobody waits in vain."""
+    chance = random.Random(seed)
+    interp.hooks.listeners.clear()
+    world = judged(World(interp), lambda ready: chance.randrange(len(ready)) if seed else 0)
+    for key, kind in ways.items():
+        world.methods[key] = method_of(world, kind)
+    for key, kind in recoveries.items():
+        world.recoveries[key] = method_of(world, kind)
+    try:
+        world.run(**{name: body_of(world, actions) for name, actions in todo.items()})
+    except Stop as stop:
+        raise AssertionError(stop.reason) from None
