@@ -72,6 +72,9 @@ def _then_true(forms: Value) -> Value:
 def achieve(form: Cons, environment: Any) -> Value:
     """Make CONDITION true, unless it is, by the first method that applies.
 
+    CONDITION is not evaluated; what has to be computed stands under a
+    backquote, as in (achieve `(at robot ,place)) or (achieve `,goal).
+
     Returns: NIL if CONDITION was true already, T if it was made true.
     Fails:   :no-applicable-method if there is no method, or no test is true;
              :condition-not-achieved if CONDITION is still false afterwards;

@@ -97,3 +97,13 @@ def test_goals_may_be_made_of_goals() -> None:
     (print (achieve (and (power-state a :on) (power-state b :on))))
     """
     assert lines_of(text) == ["(A :ON)", "(B :ON)", "T", "NIL"]
+
+
+def test_a_goal_in_a_variable_is_put_in_by_a_backquote() -> None:
+    text = f"""
+    {POWER}
+    (to-achieve (and . ?goals) (t (dolist (goal #?goals) (achieve `,goal))))
+    (print (achieve (and (power-state a :on) (power-state b :on))))
+    (let ((goal '(power-state a :off))) (print (achieve `,goal)))
+    """
+    assert lines_of(text) == ["(A :ON)", "(B :ON)", "T", "(A :OFF)", "T"]
