@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import sqlite3
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -190,6 +191,17 @@ def test_a_call_within_an_asyncio_loop_is_written_when_it_has_ended(make: Make) 
         return written(agent)
 
     assert asyncio.run(go_on()) == ["(a 1)"]
+
+
+def test_what_other_threads_change_is_written_too(make: Make) -> None:
+    agent = make()
+    other = threading.Thread(target=agent.facts.add, args=("a", 1))
+    other.start()
+    other.join()
+    assert written(agent) == ["(a 1)"]
+    agent.primitive(name="learn", blocking=True)(lambda: agent.facts.add("a", 2))
+    agent.eval("(task-net (b (learn)) (c (assert '(c 1))))")
+    assert sorted(written(agent)) == ["(a 1)", "(a 2)", "(c 1)"]
 
 
 def test_an_update_is_whole_even_if_a_listener_waits_in_its_midst(make: Make) -> None:
