@@ -17,7 +17,6 @@ from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Iterator, 
 from eslang.base.resolve import resolve_in
 from eslang.base.symbols import Symbol, Value
 from eslang.constructs.esl.queries import in_force
-from eslang.database import STEADY
 from eslang.facts.goals import ANYTHING, read_query
 from eslang.facts.query import Facts
 from eslang.facts.store import Store
@@ -37,7 +36,7 @@ Form = str | Symbol | Sequence[Any]  # a whole fact, pattern or query; or what o
 Work = Callable[..., Any]  # of a Wording, the database, and what was given
 Answer = Callable[[Facts, Value, dict[Symbol, Value]], Any]  # of a query and the values of its variables
 LONG = 200  # characters of a row that are shown
-LATER = object()  # a query calls functions that may wait, which is to be done in a task
+LATER = object()  # a query calls Lisp, which is to be done in a task
 
 
 class Change(NamedTuple):
@@ -193,10 +192,9 @@ class Knowledge:
         def work(wording: Wording, facts: Facts, may_wait: bool) -> Any:
             form = form_of(wording, query, terms)
             bound = bindings_of(wording, form, given)
-            tests = facts.plan(form, bound)[0].tests
-            if may_wait and not STEADY.issuperset(tests):
-                return LATER
-            return run_apart(lambda: answer(facts, form, bound)) if tests else answer(facts, form, bound)
+            if not facts.plan(form, bound)[0].tests:
+                return answer(facts, form, bound)
+            return LATER if may_wait else run_apart(lambda: answer(facts, form, bound))
 
         found = visit(runs, lambda: self._done(work, (at_home,)))
         if found is LATER:

@@ -335,6 +335,9 @@ def test_a_query_may_call_lisp_which_may_wait(agent: Interpreter) -> None:
     agent.eval("(defun heavy-p (n) (sleep 1) (> n 4))")
     assert agent.facts.query("(and (load ?n) (heavy-p ?n))") == [{"n": 5}]
     assert agent.clock.now() == 2
+    agent.eval("(defun limit () (sleep 1) 4)")
+    assert agent.facts.query("(and (load ?n) (> ?n (limit)))") == [{"n": 5}]
+    assert agent.clock.now() == 4
 
 
 def test_what_a_query_calls_may_fail(agent: Interpreter) -> None:
