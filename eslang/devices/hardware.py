@@ -65,13 +65,16 @@ class Hardware:
             if any(device.told[relation] is not value for relation, value in seen):
                 self.observe(device)
 
+    def is_device(self, name: Any) -> bool:
+        """True if NAME is that of a device."""
+        self.refresh()
+        return isinstance(name, Symbol) and name in self.devices
+
     def find(self, name: Any) -> Device:
         """The device of that name. Raises Failure(:unknown-device) with the nearest name."""
-        self.refresh()
-        device = self.devices.get(name) if isinstance(name, Symbol) else None
-        if device is None:
+        if not self.is_device(name):
             raise Failure("unknown-device", name, nearest_of(name, self.devices))
-        return device
+        return self.devices[name]
 
     # --- commands ----------------------------------------------------------------
 

@@ -67,18 +67,21 @@ def is_same_pattern(left: Value, right: Value) -> bool:
 
 
 class Patterns:
-    """Things remembered by pattern: what TO-ACHIEVE defined."""
+    """Things remembered by pattern: what TO-ACHIEVE defined. Those of the library come after all others."""
 
     def __init__(self) -> None:
         self.entries: list[tuple[Value, Value]] = []
+        self.own = 0  # how many are not the library's
 
-    def define(self, pattern: Value, entry: Value) -> None:
+    def define(self, pattern: Value, entry: Value, *, is_library: bool = False) -> None:
         """Remember ENTRY for PATTERN, in the place of what was remembered for the same one."""
-        for index, (known, _) in enumerate(self.entries):
-            if is_same_pattern(known, pattern):
+        begin, end = (self.own, len(self.entries)) if is_library else (0, self.own)
+        for index in range(begin, end):
+            if is_same_pattern(self.entries[index][0], pattern):
                 self.entries[index] = (pattern, entry)
                 return
-        self.entries.append((pattern, entry))
+        self.entries.insert(end, (pattern, entry))
+        self.own += not is_library
 
     def exact(self, term: Value) -> Value:
         """What was remembered for TERM itself; None if nothing was."""

@@ -24,7 +24,8 @@ def to_achieve(form: Cons, environment: Any) -> Value:
 
     CONDITION is not evaluated. Variables in it, such as ?DEVICE, match
     anything; #?DEVICE is what it matched, in the methods. A later TO-ACHIEVE
-    for the same condition takes the place of the earlier.
+    for the same condition takes the place of the earlier, and what the library
+    knows is asked last.
 
     Returns: CONDITION.
 
@@ -98,7 +99,8 @@ def achieve(form: Cons, environment: Any) -> Value:
 @function("(%define-goal pattern methods)", ESL)
 def define_goal(pattern: Value, methods: Value) -> Value:
     """Remember the methods of a condition."""
-    running.session.goals.define(pattern, methods)
+    session = running.session
+    session.goals.define(pattern, methods, is_library=not session.image.sealed)
     return pattern
 
 

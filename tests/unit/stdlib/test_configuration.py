@@ -169,3 +169,39 @@ def test_two_tasks_may_make_devices_ready_at_once(agent: Interpreter) -> None:
 
 def test_what_there_is_not_cannot_be_made_ready(agent: Interpreter) -> None:
     assert failure_of(agent, "(make-ready :ega_z)") == (":UNKNOWN-DEVICE", ":EGA_Z", ":EGA_X")
+
+
+# --- goals ---------------------------------------------------------------------------
+
+
+def test_the_states_of_a_device_are_goals_that_the_library_can_achieve(agent: Interpreter) -> None:
+    agent.eval("(progn (achieve (power-state :camera :on)) (break-device :bus_1553 :ok))")
+    assert state(agent, ":camera") == ":on"
+    agent.eval(
+        "(progn (break-device :camera :single-event-upset) (sleep 1) (achieve (health-state :camera :ok)))"
+    )
+    assert state(agent, ":camera", "health-state") == ":ok"
+    agent.eval("(achieve (power-state :camera :off))")
+    assert state(agent, ":camera") == ":off"
+
+
+def test_the_goal_of_a_device_may_be_a_variable(agent: Interpreter) -> None:
+    agent.eval("(with-query-bindings '(is-a ?device :camera) (achieve (power-state #?device :on)))")
+    assert state(agent, ":camera") == ":on"
+
+
+def test_what_a_program_says_of_a_goal_comes_before_what_the_library_knows(agent: Interpreter) -> None:
+    agent.eval("(to-achieve (power-state ?device ?state) (t (assert '(power-state #?device :mine))))")
+    assert failure_of(agent, "(achieve (power-state :camera :on))")[0] == ":CONDITION-NOT-ACHIEVED"
+    assert state(agent, ":camera") == ":mine"
+
+
+def test_a_program_may_take_the_place_of_what_the_library_knows(agent: Interpreter) -> None:
+    agent.eval("(to-achieve (power-state ?it :on) (t (print '#?it)))")
+    assert failure_of(agent, "(achieve (power-state :camera :on))")[0] == ":CONDITION-NOT-ACHIEVED"
+    agent.eval("(to-achieve (power-state ?that :on) (t (turn-device-on #?that)))")
+    assert agent.eval("(achieve (power-state :camera :on))") is True
+
+
+def test_of_what_is_no_device_the_library_knows_nothing(agent: Interpreter) -> None:
+    assert failure_of(agent, "(achieve (power-state lamp :on))")[0] == ":NO-APPLICABLE-METHOD"
