@@ -40,6 +40,7 @@ class Store:
 
     def __init__(self) -> None:
         self.relations: dict[tuple[Symbol, int], Relation] = {}
+        self.reserved = CONNECTIVES  # names that mean something else in every query
         self.properties: dict[Symbol, None] = {}
         self.known: dict[Symbol, None] = {}  # names that have, or had, facts
         self.subscribers: list[Subscriber] = []
@@ -55,10 +56,16 @@ class Store:
         """The relation of that name and arity; an empty one if nobody spoke of it yet."""
         relation = self.relations.get((name, arity))
         if relation is None:
+            self.check_name(name)
             relation = self.relations[name, arity] = Relation(name, arity, self.rows_moved)
             if name in self.properties:
                 relation.unique = unique_positions(arity)
         return relation
+
+    def check_name(self, name: Value) -> None:
+        """Fail if no relation can be called NAME."""
+        if not isinstance(name, Symbol) or is_variable(name) or name in self.reserved:
+            raise type_error(name, "RELATION")
 
     def named(self, name: Symbol) -> list[Relation]:
         """The relations of that name, whatever their arity."""
@@ -92,7 +99,7 @@ class Store:
             term = rest.car
             rest = rest.cdr
             kind = term.__class__
-            if kind not in DIRECT or (kind is Symbol and "?" <= term.name < "@"):
+            if kind not in DIRECT or (kind is Symbol and (word := term.name) < "@" and word >= "?"):
                 term = code_of(term)
                 variable = variable_in(term)
                 if variable is not None:
@@ -103,8 +110,6 @@ class Store:
             raise type_error(fact, "LIST")
         relation = self.relations.get((name, len(row)))
         if relation is None:
-            if not isinstance(name, Symbol) or is_variable(name) or name in CONNECTIVES:
-                raise type_error(name, "RELATION")
             relation = self.relation(name, len(row))
         if relation.is_plain and not is_plain:
             self.became_coded(relation)
@@ -129,8 +134,15 @@ class Store:
     def add_all(self, facts: Iterable[Value]) -> int:
         """Hold all FACTS, as one change; how many were not held already. All are read before any is taken."""
         read = self.read_fact if self.journal is None else self.check
-        rows = [read(fact) for fact in facts]
-        count = sum([self._add(relation, row) for relation, row in rows])
+        relations: list[Relation] = []  # two lists: pairs would take more room than the facts
+        rows: list[Row] = []
+        for fact in facts:
+            relation, row = read(fact)
+            relations.append(relation)
+            rows.append(row)
+        count = 0
+        for relation, row in zip(relations, rows, strict=True):
+            count += self._add(relation, row)
         self._tell()
         return count
 
