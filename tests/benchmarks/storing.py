@@ -16,6 +16,7 @@ from statistics import median
 from time import process_time
 from typing import Any
 
+from eslang import Interpreter
 from eslang.base.lists import lisp_list
 from eslang.base.symbols import Keyword, Symbol
 from eslang.facts.query import Facts
@@ -44,6 +45,11 @@ def works() -> Iterator[Row]:
     work = "10,000 conditions, for each"
     yield Row(f"ask and wait, {work}", "with 1,000", many[0], few[0], many[0] / few[0], 1.2)
     yield row_of_bytes(f"resident, {work}", "with 1,000", many[1], few[1], None)
+    facts, events = measured("waiters", 10_000), measured("tasks", 10_000)
+    work = "10,000 tasks that wait for facts, for each"
+    other = "tasks that wait for an event"
+    yield Row(f"start, ask and wait, {work}", other, facts[0], events[0], facts[0] / events[0], None)
+    yield row_of_bytes(f"resident, {work}", other, facts[1], events[1], None)
 
 
 def measured(name: str, count: int) -> Taken:
@@ -105,6 +111,31 @@ def of_conditions(count: int) -> Taken:
     return taken(count, wait, lambda: None)
 
 
+def of_waiters(count: int) -> Taken:
+    """Tasks in ESL that wait, each for a fact of its own."""
+    return of_program("facts.esl", count)
+
+
+def of_tasks(count: int) -> Taken:
+    """Tasks in ESL that wait for an event."""
+    return of_program("tasks.esl", count)
+
+
+def of_program(name: str, count: int) -> Taken:
+    """Tasks that wait in vain, after some others of the kind."""
+    with Interpreter(clock="virtual") as agent:
+        agent.load(Path(__file__).with_name("programs") / name)
+        agent.call("wait-in-vain", 100)
+        return taken(count, lambda: agent.call("wait-in-vain", count), lambda: None)
+
+
 if __name__ == "__main__":
-    contenders = {"facts": of_facts, "sqlite": of_sqlite, "dict": of_dict, "conditions": of_conditions}
+    contenders = {
+        "facts": of_facts,
+        "sqlite": of_sqlite,
+        "dict": of_dict,
+        "conditions": of_conditions,
+        "waiters": of_waiters,
+        "tasks": of_tasks,
+    }
     sys.stdout.write(" ".join(map(str, contenders[sys.argv[1]](int(sys.argv[2])))) + "\n")
