@@ -24,8 +24,10 @@ STEADY_NAMES = (
     "NUMBERP INTEGERP RATIONALP FLOATP REALP FIRST SECOND THIRD REST CAR CDR NTH LENGTH LIST CONS "
     "STRING= STRING/= STRING< STRING> STRING-EQUAL CHAR= CHAR< CHAR>"
 )
+RESERVED_NAMES = "< > <= >= = /= EQ EQL EQUAL EQUALP FUNCALL"  # no relation takes them from the queries
 # Functions whose answer hangs on their arguments alone.
 STEADY = frozenset(Symbol.intern(name, "COMMON-LISP") for name in STEADY_NAMES.split())
+RESERVED = frozenset(Symbol.intern(name, "COMMON-LISP") for name in RESERVED_NAMES.split())
 STEADY_OF_TWO = frozenset(Symbol.intern(name, "COMMON-LISP") for name in ("MEMBER", "ASSOC"))
 
 
@@ -45,6 +47,7 @@ def make_database(session: Interpreter) -> Facts:
             session.scheduler.safepoint()
 
     made = Facts(is_call, call_test)
+    made.reserved |= RESERVED
     made.audience, made.tell = hooks.listeners, tell
     made.pauses.give_way, made.pauses.look = session.scheduler.safepoint, look
     return made

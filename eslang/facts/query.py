@@ -40,6 +40,7 @@ class Facts(Store):
 
     def declare(self, name: Symbol, arity: int | None = None, arguments: tuple[Symbol, ...] = ()) -> None:
         """Let NAME be a relation, of ARITY if that is told, whose ARGUMENTS are called so if that is."""
+        self.check_name(name)
         if arguments:
             self.arguments[name, len(arguments)] = arguments
         arities = self.declared.setdefault(name, [])
@@ -86,6 +87,7 @@ class Facts(Store):
     def define_rule(self, head: Value, body: Value) -> bool:
         """Derive HEAD from the goals in the list BODY, too; false if that is known."""
         rule = read_rule(head, body)
+        self.check_name(rule.name[0])
         for name in (rule.name, *(need.name for need in rule.needs if not self.is_test(need.name[0]))):
             self._check_arity(*name)
         is_new = self.rules.define(rule)

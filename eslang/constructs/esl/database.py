@@ -12,9 +12,7 @@ from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.base.text import String
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.esl.conditions import CONNECTIVES
 from eslang.constructs.esl.queries import in_force
-from eslang.facts.unify import is_variable
 
 QUOTE = Symbol.intern("QUOTE", CL)
 DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE = (
@@ -122,7 +120,8 @@ def defrelation(form: Cons, environment: Any) -> Value:
     declared with several numbers.
 
     Returns: NAME.
-    Fails:   :type-error if NAME is no symbol, or AND, OR or NOT.
+    Fails:   :type-error if NAME is no symbol; or means something else in every
+             query: AND, OR, NOT, FUNCALL, comparisons.
 
     Example:
         ? (defrelation connected-to (thing other))
@@ -182,8 +181,6 @@ def _declare(name: Value, arguments: Value) -> None:
     """Let NAME be a relation with ARGUMENTS: a list of names, their number, or nothing."""
     if not isinstance(name, Symbol):
         raise type_error(name, "SYMBOL")
-    if name in CONNECTIVES or is_variable(name):
-        raise type_error(name, "RELATION")
     if arguments is None or arguments.__class__ is String:
         running.session.database.declare(name)
     elif arguments.__class__ is int and arguments >= 0:
