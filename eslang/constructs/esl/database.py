@@ -30,7 +30,8 @@ def assert_fact(fact: Value) -> Value:
 
     Returns: FACT.
     Fails:   :type-error if FACT is no list that begins with a symbol;
-             :unbound-logic-variable if a variable stands in it.
+             :unbound-logic-variable if a variable stands in it;
+             :wrong-number-of-arguments if another number is declared.
 
     Example:
         ? (assert '(is-a w1 widget))
@@ -95,7 +96,8 @@ def db_query(query: Value) -> Value:
     Returns: a list of alists ((?VAR . VALUE)...), in the order of assertion;
              NIL if QUERY does not hold.
     Fails:   :unbound-logic-variable if a variable has no value where NOT or
-             a test needs one.
+             a test needs one; :unbounded-rules if rules might make ever
+             larger terms.
 
     Example:
         ? (progn (assert '(mass w1 3)) (assert '(mass w2 12)))
@@ -103,7 +105,7 @@ def db_query(query: Value) -> Value:
         ? (db-query '(and (mass ?x ?n) (> ?n 10)))
         (((?X . W2) (?N . 12)))
 
-    Source: ESL §5; ARM §2. Alists: language reference §5.
+    Source: ESL §5; ARM §2. Alists: language reference §5. Values: decision 26.
     """
     return running.session.database.alists(query, in_force)
 
