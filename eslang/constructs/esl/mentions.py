@@ -50,6 +50,7 @@ class Mentions:
         self.questions: list[Question] = []
         self.rules: list[Question] = []
         self.arguments: dict[tuple[Symbol, int], Value] = {}  # their names, where they are declared
+        self.variables: list[tuple[Mention, Mention]] = []  # in unquoted queries: the query, the variable
         self.is_strict = False  # DEFRELATION stands in it: relations are to be declared
         self.is_whole = is_whole  # nothing is asserted that does not show
         for use in uses:
@@ -86,6 +87,8 @@ class Mentions:
     def hold(self, use: Use, given: list[Value]) -> None:
         """A condition."""
         self.note_query(CONDITION, use, given[0])
+        if use.scope.analyser.spans.of(use.form.cdr.car) is None:  # the program has no quote there
+            self.note_variables(use, given[0])
         self.questions.append(Question(given[0], use))
 
     def define_goal(self, use: Use, given: list[Value]) -> None:
@@ -132,6 +135,15 @@ class Mentions:
         """QUERY is asked."""
         for goal in goals_of(query):
             self.all.append(Mention(how, goal.car, length_of(goal.cdr), place_of(goal, use), use))
+
+    def note_variables(self, use: Use, query: Value) -> None:
+        """In QUERY, names stand for themselves that are names of variables there."""
+        for goal in goals_of(query):
+            asked = Mention(CONDITION, goal.car, length_of(goal.cdr), place_of(goal, use), use)
+            for part in parts_of(goal.cdr):
+                name = part.car
+                if name.__class__ is Symbol and any(name in frame.variables for frame in use.scope.frames()):
+                    self.variables.append((asked, Mention(CONDITION, name, None, place_of(part, use), use)))
 
 
 def goals_of(query: Value) -> Iterator[Cons]:

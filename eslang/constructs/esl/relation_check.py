@@ -70,6 +70,7 @@ class RelationCheck(Judge):
                 undeclared.add(mention.name)
                 yield self.undeclared(mention)
         yield from self.ambiguous()
+        yield from self.variables()
         yield from QuestionCheck(self).verdicts()
 
     # --- names -------------------------------------------------------------------
@@ -129,6 +130,16 @@ class RelationCheck(Judge):
                     message += ", and which of them a condition means depends on when it is asked"
                     hint = f"write `(defrelation {shown(name)})` before, or give it another name"
                 yield warning("relation-and-function", message, (declared or mentions)[0], hint)
+
+    def variables(self) -> Iterator[Diagnostic]:
+        """Names of variables that stand for themselves, in queries that are conditions."""
+        for asked, mention in self.mentions.variables:
+            is_relation = asked.name in self.known or is_of_library(asked.name)
+            if is_relation and not self.is_called(asked.name):
+                name = shown(mention.name)
+                message = f"`{name}` stands for itself in a query, not for the variable"
+                hint = f"put the query under a backquote, and write `,{name}`"
+                yield warning("variable-in-query", message, mention, hint)
 
     # --- arities -----------------------------------------------------------------
 
