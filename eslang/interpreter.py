@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from eslang.knowledge import Knowledge
     from eslang.outside import Outside
     from eslang.reader.reader import Reading
+    from eslang.runtime.locks import PropertyLocks
 
 DEEPEST = 400_000  # Python frames; what is deeper is a :stack-exhausted failure
 
@@ -94,6 +95,7 @@ class Interpreter:
         self.causes = Causes()
         self.goals = Patterns()
         self.resources: dict[Symbol, Resource] = {}
+        self.locks: PropertyLocks | None = None  # made when first wanted
         self.runs = Runs(self, shuffled=shuffle, choices=choices, is_open=outside)
         self.scheduler = self.runs.scheduler
         self.ticks = self.scheduler.ticks
@@ -212,11 +214,11 @@ class Interpreter:
 
         post_signal(self, name, arguments)
 
-    def post(self, function: Callable[[], object]) -> None:
-        """Call FUNCTION in a task of its own, soon; from any thread."""
+    def post(self, function: Callable[..., object] | Symbol, *arguments: Any) -> None:
+        """Call FUNCTION, Python's or the Lisp function of a symbol, in a task of its own; from any thread."""
         from eslang.posts import post_call
 
-        post_call(self, function)
+        post_call(self, function, *arguments)
 
     def after(self, seconds: float, function: Callable[[], object]) -> None:
         """Call FUNCTION, which is not to wait, when SECONDS have passed on the clock; no run waits for it.

@@ -150,4 +150,4 @@ def drawn(doings: list[Doing], chance: Random) -> list[Call]:
 
 def poster(agent: Interpreter, call: Call) -> Callable[[], None]:
     """What lets a task make CALL."""
-    return lambda: agent.post(lambda: agent.call(call.function, *call.arguments))
+    return lambda: agent.post(call.function, *call.arguments)
