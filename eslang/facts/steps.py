@@ -8,7 +8,7 @@ Where that leaves a choice, goals are asked in the order in which they stand.
 
 from __future__ import annotations
 
-from eslang.base.failure import Failure
+from eslang.base.failure import Failure, simple_error
 from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import (
@@ -72,6 +72,7 @@ class Branch(NamedTuple):
 Step = Look | Test | Absent | Present | Branch
 Steps = list[Step]
 
+MOST = 5000  # ways through the ORs of one body that bind variables: they multiply
 GROUND, DECIDED, DETERMINED, JOINED, KNOWN, ITSELF, UNKNOWN = range(7)  # how promising a goal is
 
 
@@ -91,6 +92,7 @@ class Arranger:
         self.resolve = resolve  # the relation that an atom is about; None: it is a test
         self.rules = rules  # what answers by rules, or None (procs.py); fails where they cannot run
         self.constants = constants
+        self._room: int | None = None  # for ways through further ORs, after the first one
         self._ways: dict[tuple[int, Bound], Steps] = {}  # for goals that stand alone, by their identity
 
     def _way(self, goal: Goal, bound: Bound) -> Steps:
@@ -109,6 +111,7 @@ class Arranger:
             goal = left.pop(number)
             if isinstance(goal, Either) and not self._is_decided(goal, bound):
                 rest = tuple(left)
+                self._make_ways(goal)
                 if rest:
                     ways = tuple(self.arrange((each, *rest), bound) for each in goal.goals)
                 else:
@@ -118,6 +121,12 @@ class Arranger:
             if isinstance(goal, Atom):
                 bound = bound.union(variables_of(goal))
         return steps
+
+    def _make_ways(self, goal: Either) -> None:
+        """Take note of the ways through GOAL; fail if they multiply."""
+        self._room = MOST if self._room is None else self._room - len(goal.goals)
+        if self._room < 0:
+            raise simple_error("there are too many ways through the ORs of this query: make one a rule")
 
     def _step(self, goal: Goal, bound: Bound) -> Step:
         """The step for a GOAL that is ready."""
