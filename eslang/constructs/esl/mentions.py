@@ -50,6 +50,7 @@ class Mentions:
         self.questions: list[Question] = []
         self.rules: list[Question] = []
         self.arguments: dict[tuple[Symbol, int], Value] = {}  # their names, where they are declared
+        self.unquoted: list[tuple[Symbol, Span]] = []  # lists that are called where data is meant
         self.variables: list[tuple[Mention, Mention]] = []  # in unquoted queries: the query, the variable
         self.is_strict = False  # DEFRELATION stands in it: relations are to be declared
         self.is_whole = is_whole  # nothing is asserted that does not show
@@ -59,6 +60,7 @@ class Mentions:
             elif use.kind == "call" and use.arguments is not None:
                 read = READERS.get(use.symbol)
                 if read is not None:
+                    self.note_unquoted(use)
                     read(self, use, [literal(node) for node in use.arguments])
 
     # --- what the constructs say ---------------------------------------------------
@@ -123,6 +125,15 @@ class Mentions:
         self.is_whole = False
 
     # --- notes ---------------------------------------------------------------------
+
+    def note_unquoted(self, use: Use) -> None:
+        """The arguments of USE that are no data, but look like it."""
+        rest = use.form.cdr if use.symbol in TAKING_FACTS else None
+        while rest.__class__ is Cons:
+            part, rest = rest.car, rest.cdr
+            place = use.scope.analyser.spans.of(part)
+            if place is not None and isinstance(part.car, Symbol):
+                self.unquoted.append((part.car, place))
 
     def note_asserted(self, use: Use, fact: Value) -> None:
         """FACT is asserted."""
@@ -222,6 +233,7 @@ ASSERT, RETRACT, UPDATE, DB_QUERY, EXPLAIN_QUERY, LOAD_FACTS = (
     for name in ("ASSERT", "RETRACT", "UPDATE", "DB-QUERY", "EXPLAIN-QUERY", "LOAD-FACTS")
 )
 ASSERTING = (ASSERT, UPDATE)
+TAKING_FACTS = (ASSERT, RETRACT, UPDATE, DB_QUERY, EXPLAIN_QUERY, BINDINGS)
 READERS: dict[Symbol, Callable[[Mentions, Use, list[Any]], None]] = {
     ASSERT: Mentions.assert_fact,
     RETRACT: Mentions.retract,

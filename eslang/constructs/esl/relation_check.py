@@ -58,6 +58,17 @@ class RelationCheck(Judge):
         """Whether a condition with OPERATOR is a call: it names a function, and no relation."""
         return super().is_called(operator) and operator not in self.known
 
+    def told(self, diagnostic: Diagnostic, use: Use) -> Diagnostic | None:
+        """Where a fact or a query is not quoted, that is said, and nothing of the names in it."""
+        for operator, place in self.mentions.unquoted:
+            if use.span is not None and is_inside(use.span, place) and not self.is_operator(operator):
+                if use.symbol is not operator:
+                    return None
+                if operator in self.known or diagnostic.hint is None:
+                    hint = f"write `'({shown(operator)} …)` if a fact or a query is meant: these are data"
+                    return diagnostic._replace(hint=hint)
+        return diagnostic
+
     def verdicts(self) -> Iterator[Diagnostic]:
         """What is wrong with relations, rules and queries."""
         undeclared: set[Symbol] = set()
@@ -256,6 +267,16 @@ def shows(term: Value) -> Value:
 def is_of_library(name: Symbol) -> bool:
     """Whether NAME is a word of the language, such as POWER-STATE: the devices may assert facts of it."""
     return name.package == ESL
+
+
+def is_inside(span: Span, place: Span) -> bool:
+    """Whether SPAN lies in PLACE."""
+    begins = (place.line, place.column) <= (span.line, span.column)
+    return (
+        span.source is place.source
+        and begins
+        and (span.end_line, span.end_column) <= (place.end_line, place.end_column)
+    )
 
 
 def counted(number: int) -> str:

@@ -81,6 +81,11 @@ SAID = {
         "(assert '(on 1)) (defun f (x) (wait-until (on x)) (achieve (and (not (on x)) (on (lamp x)))))",
         [("variable-in-query", "x"), ("variable-in-query", "x"), ("variable-in-query", "x")],
     ),
+    "a fact that is not quoted, once": ("(assert (on lamp ?x))", [("unknown-function", "on")]),
+    "a query that is not quoted, once": (
+        "(assert '(on lamp)) (with-query-bindings (on ?x) (db-query (on ?x)) #?x)",
+        [("unknown-function", "on"), ("unknown-function", "on")],
+    ),
     "a macro that is meant as a test": (
         "(assert '(on 1)) (db-query '(and (on ?x) (when (> ?x 0) t)))",
         [("unknown-relation", "when")],
