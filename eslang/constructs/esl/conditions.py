@@ -15,7 +15,7 @@ from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, Value, truth
 from eslang.compile.registry import CL, ESL, function
-from eslang.constructs.esl.queries import LOGICAL_BINDING, mentions_binding
+from eslang.constructs.esl.queries import LOGICAL_BINDING, in_force, mentions_binding
 from eslang.facts.unify import is_variable
 
 AND, OR, NOT, IF, QUOTE, LIST, PROGN, LAMBDA, FUNCTION, FUNCALL, QUASIQUOTE = (
@@ -26,7 +26,9 @@ AND, OR, NOT, IF, QUOTE, LIST, PROGN, LAMBDA, FUNCTION, FUNCALL, QUASIQUOTE = (
     )
 )
 WHERE_FUNCTION = Symbol.intern("%WHERE-FUNCTION", CL)
-CALLS, HOLDS, ASKS_LISP = (Symbol.intern(name, ESL) for name in ("%CALLS-P", "%HOLDS-P", "%ASKS-LISP"))
+CALLS, HOLDS, ASKS_LISP, IN_FORCE = (
+    Symbol.intern(name, ESL) for name in ("%CALLS-P", "%HOLDS-P", "%ASKS-LISP", "%IN-FORCE")
+)
 CONNECTIVES = (AND, OR, NOT)
 
 
@@ -91,7 +93,7 @@ def instance_form(condition: Value, environment: Any) -> Value:
     if not is_compound(condition):
         return lisp_list(QUOTE, condition)
     if is_written(condition):
-        return condition
+        return lisp_list(IN_FORCE, condition)
     operator = lisp_list(QUOTE, condition.car)
     if condition.car in CONNECTIVES:
         parts = [instance_form(part, environment) for part in items(condition.cdr)]
@@ -206,10 +208,16 @@ def asks_lisp() -> Value:
     return None
 
 
+@function("(%in-force condition)", ESL)
+def condition_in_force(condition: Value) -> Value:
+    """Give CONDITION with the values of the #?x in it."""
+    return in_force(condition)
+
+
 @function("(%holds-p query)", ESL)
 def holds_p(query: Value) -> Value:
     """Tell whether QUERY holds in the database; whoever watches hears what that rests on."""
-    session = running.session
+    session, query = running.session, in_force(query)
     inquiry = session.dynamic.logical.inquiry
     if inquiry is None:
         return truth(session.database.first(query) is not None)

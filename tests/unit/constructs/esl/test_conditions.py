@@ -173,6 +173,21 @@ def test_a_condition_may_be_the_binding_of_a_variable() -> None:
     assert lines_of(text) == [":DARK", "(((?ROOM . HALL)))"]
 
 
+def test_a_binding_stands_for_its_value_in_a_quoted_condition_too() -> None:
+    text = """
+    (assert '(wanted hall))
+    (to-achieve (lit ?room) (t (assert '(lit #?room))))
+    (spawn (progn (sleep 1) (assert '(dark hall))))
+    (with-query-bindings '(wanted ?room)
+      (wait-until '(dark #?room))
+      (wait-until (and '(dark #?room) (not '(lit #?room))))
+      (achieve '(lit #?room))
+      (print (db-query '(lit ?x))))
+    """
+    assert lines_of(text) == ["(((?X . HALL)))"]
+    assert came_to("(wait-until '(dark #?room))") == ":UNBOUND-VARIABLE ?ROOM"
+
+
 def test_a_condition_with_a_function_that_is_not_yet_defined_is_a_call_later() -> None:
     text = """
     (defun look () (achieve (big (let ((y 2)) (+ y 1)))))
