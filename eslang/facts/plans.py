@@ -133,6 +133,8 @@ class Plan:
             return compiled.make(view, self.call, pace)(*constants)
         finally:
             depth[0] -= 1
+            if reads is not None and view.kept is not None:
+                reads.overtaken = True
             view.close()
 
     def solutions(self, constants: Constants) -> Solutions:

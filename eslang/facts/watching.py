@@ -36,13 +36,14 @@ class Change:
 
 
 class Reads:
-    """What an evaluation read: the keys by access; and whether it asked Lisp, too."""
+    """What an evaluation read: keys by access; whether it asked Lisp, and facts changed before its end."""
 
-    __slots__ = ("asked_lisp", "keys")
+    __slots__ = ("asked_lisp", "keys", "overtaken")
 
     def __init__(self) -> None:
         self.keys: dict[tuple[Relation, Positions], dict[Code, None]] = {}
         self.asked_lisp = False
+        self.overtaken = False
 
     def through(self, accesses: Accesses, readers: list[Callable[..., Any]]) -> list[Callable[..., Any]]:
         """What reads as READERS do, for these accesses, and notes it."""

@@ -22,11 +22,12 @@ if TYPE_CHECKING:
 class Inquiry:
     """What one asking of a condition read: facts, which are watched from then on, or Lisp, too."""
 
-    __slots__ = ("asked_lisp", "bindings", "is_stale", "relations", "stir", "watches")
+    __slots__ = ("asked_lisp", "bindings", "is_overtaken", "is_stale", "relations", "stir", "watches")
 
     def __init__(self, stir: Callable[[Any], object]) -> None:
         self.asked_lisp = False
         self.is_stale = False  # what it read has changed meanwhile
+        self.is_overtaken = False  # facts have changed while it was answered
         self.bindings: dict[Symbol, Value] = {}  # under which the condition held
         self.relations: dict[Symbol, None] = {}
         self.watches: list[Watch] = []
@@ -38,6 +39,7 @@ class Inquiry:
 
         self.bindings.update(solution or {})
         self.relations.update(dict.fromkeys(name for name, _ in reads.relations()))
+        self.is_overtaken = self.is_overtaken or reads.overtaken
         self.watches.append(watch(reads, self.stir))
 
     def end(self) -> None:
@@ -82,8 +84,10 @@ class Look:
                 self.inquiry.end()
                 self.inquiry = Inquiry(self.stir)
                 dynamic.logical = outer._replace(inquiry=self.inquiry)
+                step = self.scheduler.steps
                 value = self.test()
-                if value is not None or not self.inquiry.is_stale:
+                is_late = self.inquiry.is_overtaken and self.scheduler.steps != step  # it has waited
+                if value is not None or not (self.inquiry.is_stale or is_late):
                     break
         finally:
             dynamic.logical = outer

@@ -181,3 +181,16 @@ def test_parts_without_variables_are_asked_before_the_others() -> None:
     (print (reverse *order*))
     """
     assert lines_of(text) == ["(:READY 1)"]
+
+
+def test_what_changes_while_a_test_of_the_condition_waits_is_not_lost() -> None:
+    text = """
+    (defun slow-p (x) (sleep 1) t)
+    (assert '(cup 1)) (assert '(cup 2))
+    (spawn (progn (sleep 3.5) (assert '(clean 2))))
+    (sleep 1)
+    (print (wait-until (and (cup ?x) (slow-p ?x) (clean ?x)) :timeout 100))
+    """
+    asked = Questions(text)
+    assert asked.lines == ["T"]
+    assert asked.count < 6
