@@ -67,6 +67,7 @@ ROOMS = [
     "eslang.constructs.esl.timing",
     "eslang.constructs.esl.resources",
     "eslang.constructs.esl.goals",
+    "eslang.constructs.esl.locks",
     "eslang.constructs.esl.prompt",
     "eslang.constructs.esl.doubles",
     "eslang.constructs.esl.documentation",
@@ -86,6 +87,7 @@ FILES = [
     "tasks",
     "widgets",
     "recovery",
+    "locks",
     "devices",
     "spacecraft",
     "configuration",
@@ -102,6 +104,7 @@ LATER = (  # of these, those with functions, macros, and what only macros use: t
     "packages",
     "structures",
     "recovery",
+    "locks",
     "spacecraft",
     "configuration",
 )

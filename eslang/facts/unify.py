@@ -100,3 +100,48 @@ class Patterns:
                 if not bindings:
                     break
         return best
+
+
+Place = tuple[bool, Value]  # a term, and whether its variables are those of the right side
+
+
+def unifiable(left: Value, right: Value) -> bool:
+    """True if LEFT and RIGHT, whose variables are not the same ones, can be made the same."""
+    bound: dict[Place, Place] = {}
+    pending: list[tuple[Place, Place]] = [((False, left), (True, right))]
+    while pending:
+        one, other = (walked(each, bound) for each in pending.pop())
+        if one[1] is other[1] and one[0] is other[0]:
+            continue
+        if is_variable(other[1]):
+            one, other = other, one
+        if is_variable(one[1]):
+            if one[1].name != "?_":
+                if occurs(one, other, bound):
+                    return False
+                bound[one] = other
+        elif one[1].__class__ is Cons and other[1].__class__ is Cons:
+            pending.append(((one[0], one[1].cdr), (other[0], other[1].cdr)))
+            pending.append(((one[0], one[1].car), (other[0], other[1].car)))
+        elif not same(one[1], other[1]):
+            return False
+    return True
+
+
+def walked(place: Place, bound: dict[Place, Place]) -> Place:
+    """PLACE, or what it is BOUND to if it is a variable."""
+    while is_variable(place[1]) and place in bound:
+        place = bound[place]
+    return place
+
+
+def occurs(variable: Place, place: Place, bound: dict[Place, Place]) -> bool:
+    """True if VARIABLE is a part of PLACE, as far as variables are BOUND."""
+    pending = [place]
+    while pending:
+        side, term = walked(pending.pop(), bound)
+        if term.__class__ is Cons:
+            pending += [(side, term.cdr), (side, term.car)]
+        elif (side, term) == variable and is_variable(term):
+            return True
+    return False

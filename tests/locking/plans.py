@@ -35,9 +35,9 @@ methods = st.dictionaries(
 )
 
 
-def body_of(world: World, todo: list[Action]) -> Callable[[], None]:
-    """What a task does that is to do TODO, one after the other."""
-    return lambda: [act(world, each) for each in todo] and None
+def body_of(world: World, doings: list[Action]) -> Callable[[], None]:
+    """What a task does that is to do DOINGS, one after the other."""
+    return lambda: [act(world, each) for each in doings] and None
 
 
 def act(world: World, action: Action) -> None:
@@ -54,17 +54,17 @@ def act(world: World, action: Action) -> None:
                 world.abort(name)
         case ("fail",):
             world.noting(lambda: world.fail("OOPS"))
-        case ("clean", todo):
-            clean(world, todo)
-        case (how, wanted, todo):
-            hold(world, how, " ".join(wanted), body_of(world, todo))
+        case ("clean", doings):
+            clean(world, doings)
+        case (how, wanted, doings):
+            hold(world, how, " ".join(wanted), body_of(world, doings))
 
 
-def clean(world: World, todo: list[Action]) -> None:
-    """Sleep a little; if that is left by a failure or an abort, do TODO on the way out."""
+def clean(world: World, doings: list[Action]) -> None:
+    """Sleep a little; if that is left by a failure or an abort, do DOINGS on the way out."""
     from eslang.runtime.failures import run_with_cleanup
 
-    run_with_cleanup(lambda: world.sleep(1), body_of(world, todo))
+    run_with_cleanup(lambda: world.sleep(1), body_of(world, doings))
 
 
 def hold(world: World, how: str, wanted: str, inside: Callable[[], None]) -> None:

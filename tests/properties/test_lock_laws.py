@@ -29,9 +29,9 @@ def interp() -> Interpreter:
 
 
 @RELAXED
-@given(todo=bodies, ways=methods, recoveries=methods, seed=st.integers(0, 2**32))
+@given(doings=bodies, ways=methods, recoveries=methods, seed=st.integers(0, 2**32))
 def test_no_plan_leaves_or_misses_anything(
-    interp: Interpreter, todo: Any, ways: Any, recoveries: Any, seed: int
+    interp: Interpreter, doings: Any, ways: Any, recoveries: Any, seed: int
 ) -> None:
     """No contradiction, no dead subscriber, no violation unnoticed, nothing left, and nobody waits in vain."""
     chance = random.Random(seed)
@@ -42,6 +42,6 @@ def test_no_plan_leaves_or_misses_anything(
     for key, kind in recoveries.items():
         world.recoveries[key] = method_of(world, kind)
     try:
-        world.run(**{name: body_of(world, actions) for name, actions in todo.items()})
+        world.run(**{name: body_of(world, actions) for name, actions in doings.items()})
     except Stop as stop:
         raise AssertionError(stop.reason) from None
