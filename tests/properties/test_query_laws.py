@@ -9,7 +9,9 @@ import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 from worlds import (
+    ASKED,
     FACTS,
+    GOALS,
     GROUND,
     LEAF,
     QUERIES,
@@ -29,7 +31,7 @@ from worlds import (
 from eslang.base.failure import Failure
 from eslang.facts.goals import UNBOUND
 from eslang.facts.query import Facts
-from naive.queries import Bindings, Goal, Rule, Unsafe, World, key
+from naive.queries import Bindings, Goal, Rule, Unsafe, World, check_safe, key, variables, ways
 
 pytestmark = pytest.mark.slow
 LAW = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -124,3 +126,31 @@ def test_a_pattern_finds_facts_in_the_order_of_their_assertion(told: list[Goal],
     assert facts.retract(lisp(pattern)) == len({key(fact) for fact in gone})
     left = [key(plain(fact)) for fact in facts.facts()]
     assert set(left) == {key(fact) for fact in told} - {key(fact) for fact in gone}
+
+
+@LAW
+@given(FACTS, st.lists(rules(), max_size=2), ASKED, GOALS)
+def test_a_rule_says_what_its_body_says(
+    told: list[Goal], candidates: list[Rule], before: Goal, body: Goal
+) -> None:
+    """Whatever is known already of what its head tells."""
+    names = variables(body)
+    written_out = ("and", before, body)
+    if any(missing(("and", before, *way[1:]), names) for way in ways(body)):
+        return
+    facts = database(told)
+    taken(facts, candidates)
+    expected = solved(facts.all(lisp(written_out)))
+    facts.define_rule(lisp(("h", *names)), lisp((body,)))
+    for query in (("and", before, ("h", *names)), ("and", ("h", *names), before)):
+        assert set(solved(facts.all(lisp(query)))) == set(expected)
+    event("answers" if expected else "no answers")
+
+
+def missing(conjunction: Goal, names: list[str]) -> bool:
+    """Whether no pattern in CONJUNCTION gives a value to some of NAMES, or a test or NOT needs one."""
+    try:
+        check_safe(conjunction)
+    except Unsafe:
+        return True
+    return not set(names) <= set(variables(conjunction))
