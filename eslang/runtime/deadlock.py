@@ -151,7 +151,8 @@ def why_no_change(wait: Wait, alive: list[Task]) -> tuple[str, str]:
     shown_names = " or ".join([shown(name) for name in names[:FEW]])
     for task in alive:
         if asserts(task, names):
-            return f"{task.name} could assert or retract facts of {shown_names}", f"let {task.name} do that first"
+            could = f"{task.name} could assert or retract facts of {shown_names}"
+            return could, f"let {task.name} do that first"
     for task in ended(alive):
         if asserts(task, names) and task.status is not SUCCEEDED:
             how = "has failed" if task.status is FAILED else "was aborted"
