@@ -58,14 +58,14 @@ class View:
         if not self.is_open:
             self.is_open = True
             for relation in self.accesses.relations:
-                relation.views.append(self)
+                relation.views[self] = None
 
     def close(self) -> None:
         """Nobody reads here any more."""
         if self.is_open:
             self.is_open = False
             for relation in self.accesses.relations:
-                relation.views.remove(self)
+                del relation.views[self]
 
     def keep(self, relation: Relation, row: Row) -> None:
         """Note what every access would find ROW among, before ROW comes or goes."""
