@@ -122,19 +122,17 @@ class Plan:
         compiled = self.functions(kind)
         if depth[0] > DEEPEST:
             raise RecursionError("too many queries that ask Lisp inside one another")
-        if reads is None:
-            view, pace = View(compiled.accesses), Pace(self.pauses, self.pauses.between)
-        else:
-            view = View(compiled.accesses, partial(reads.through, compiled.accesses))
-            pace = Pace(self.pauses, self.pauses.look)  # a change in a pause would not be noted
+        noted = None if reads is None else partial(reads.through, compiled.accesses)
+        view = View(compiled.accesses, noted)
+        pace = Pace(self.pauses, self.pauses.between)
         view.open()
         depth[0] += 1
         try:
             return compiled.make(view, self.call, pace)(*constants)
         finally:
             depth[0] -= 1
-            if reads is not None and view.kept is not None:
-                reads.overtaken = True
+            if reads is not None:
+                reads.compare(view)
             view.close()
 
     def solutions(self, constants: Constants) -> Solutions:

@@ -33,6 +33,7 @@ class Facts(Store):
         self.declared: dict[Symbol, list[int]] = {}  # names, and the arities they were declared with
         self.arguments: dict[Name, tuple[Symbol, ...]] = {}  # what they are called, where that is declared
         self.rules = Rules(self.is_test)
+        self.definitions = 0  # how often rules were defined or forgotten
         self.pauses = Pauses(lambda: self.is_telling)
         self.plans = Shapes()
         self.guesses: dict[Tokens, Plan] = {}  # plans with names that nobody defined yet
@@ -137,7 +138,10 @@ class Facts(Store):
         """The first solution of QUERY, if any, and what was read to know that."""
         reads = Reads()
         plan, constants = self._planned(query, given)
-        return plan.noting(constants, reads), reads
+        definitions = self.definitions
+        found = plan.noting(constants, reads)
+        reads.overtaken = reads.overtaken or self.definitions != definitions
+        return found, reads
 
     def explain(self, query: Value, given: Given = NOTHING_GIVEN) -> Explanation:
         """How QUERY is answered."""
@@ -185,6 +189,7 @@ class Facts(Store):
 
     def _rules_changed(self, names: list[Name]) -> None:
         """Forget the plans, and wake who asked these relations."""
+        self.definitions += 1
         self._forget_plans()
         asked = [self.relations[name] for name in names if name in self.relations]
         woken = dict.fromkeys(watch for relation in asked for watch in woken_by_rules(relation))

@@ -67,6 +67,11 @@ class View:
             for relation in self.accesses.relations:
                 del relation.views[self]
 
+    def changes(self) -> Iterable[tuple[Access, Code]]:
+        """What has changed since the view was opened, and was kept."""
+        for access, kept in zip(self.accesses.accesses, self.kept or (), strict=False):
+            yield from ((access, key) for key in kept)
+
     def keep(self, relation: Relation, row: Row) -> None:
         """Note what every access would find ROW among, before ROW comes or goes."""
         is_first = self.kept is None

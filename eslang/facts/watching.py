@@ -13,7 +13,7 @@ from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol
 from eslang.facts.relations import Access, Positions, Project, Relation
 from eslang.facts.terms import Code, Row, fact_of
-from eslang.facts.views import Accesses
+from eslang.facts.views import Accesses, View
 
 
 class Change:
@@ -52,6 +52,12 @@ class Reads:
         return [
             self._reader(access, reader) for access, reader in zip(accesses.accesses, readers, strict=True)
         ]
+
+    def compare(self, view: View) -> None:
+        """Note whether something that was read has changed since VIEW was opened."""
+        for access, key in view.changes():
+            if key in self.keys.get((access.relation, access.positions), ()):
+                self.overtaken = True
 
     def _reader(self, access: Access, now: Callable[..., Any]) -> Callable[..., Any]:
         noted = self.keys.setdefault((access.relation, access.positions), {})

@@ -75,3 +75,22 @@ def test_nobody_has_a_turn_within_without_interrupts(agent: Interpreter) -> None
                 (other (push 2 *log*)))
     """)
     assert agent.eval("*log*") == [2, 1]
+
+
+def test_a_change_while_a_condition_is_asked_is_not_lost(agent: Interpreter) -> None:
+    agent.eval("(defrelation marked)")
+    agent.eval("""
+      (task-net (waits (wait-until (and (node ?a) (node ?b) (marked ?a ?b)) :timeout 10) (push 1 *log*))
+                (marks (assert '(marked 3 4)) (push 2 *log*)))
+    """)
+    assert agent.eval("*log*") == [1, 2]
+
+
+def test_a_deadline_ends_a_condition_that_takes_years_to_ask(agent: Interpreter) -> None:
+    agent.eval("(defrelation marked)")
+    with pytest.raises(Failure) as caught:
+        agent.eval("""
+          (with-deadline (0.1)
+            (wait-until (and (node ?a) (node ?b) (node ?c) (node ?d) (node ?e) (marked ?a ?e))))
+        """)
+    assert caught.value.cause.name == "DEADLINE-EXPIRED"
