@@ -184,6 +184,7 @@ class History:
     def note_asked(self, query: Any, *given: Any) -> Any:
         """A condition is asked; unless it is for the first time, something it read has changed."""
         task, inquiry = self.interp.scheduler.current, self.interp.dynamic.logical.inquiry
+        now = len(self.changed)
         found, reads = self.ask(query, *given)
         last = self.last.get(task)
         if last is None or last.inquiry is not inquiry:
@@ -191,7 +192,7 @@ class History:
             changed = self.changed[last.moment :] if last is not None else [None]
             if last is not None and not any(each is None or was_read(each, last.read) for each in changed):
                 self.idle.append(prin1(query))
-            last = self.last[task] = Asked(inquiry, len(self.changed), set())
+            last = self.last[task] = Asked(inquiry, now, set())
         last.read.update(looked_up(reads))
         return found, reads
 
@@ -213,16 +214,24 @@ class History:
     st.lists(CONDITION, min_size=3, max_size=5),
     ACTORS,
     st.one_of(st.none(), st.integers(0, 99)),
+    st.sampled_from([1, 500]),
 )
 def test_a_condition_wakes_who_waits_when_it_comes_to_be_true_and_nobody_asks_in_vain(
-    told: list[Goal], candidates: list[Rule], conditions: list[Any], actors: list[list[Any]], seed: int | None
+    told: list[Goal],
+    candidates: list[Rule],
+    conditions: list[Any],
+    actors: list[list[Any]],
+    seed: int | None,
+    rows: int,
 ) -> None:
     known = taken(database([]), candidates)
     limit = sys.getrecursionlimit()  # plans have another
-    try:
-        check_run(told, known, conditions, actors, seed)
-    finally:
-        sys.setrecursionlimit(limit)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("eslang.facts.views.SLICE", rows)  # between two pauses of a query
+        try:
+            check_run(told, known, conditions, actors, seed)
+        finally:
+            sys.setrecursionlimit(limit)
 
 
 def check_run(
