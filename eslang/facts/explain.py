@@ -8,7 +8,7 @@ from eslang.facts.functions import Question
 from eslang.facts.goals import Constants, form_of
 from eslang.facts.procs import Proc, reached_from
 from eslang.facts.relations import Positions, Relation
-from eslang.facts.steps import Absent, Look, Step, Steps, Test
+from eslang.facts.steps import Absent, Branch, Join, Look, Present, Steps, Test
 
 CHECK, LOOK_UP, SCAN, TEST, NOT, OR = "check", "look-up", "scan", "test", "not", "or"
 RULES, OTHER_RULES = "rules", "other rules"  # those that are not transitive
@@ -70,10 +70,20 @@ def _rules(proc: Proc, constants: Constants, relations: dict[Relation, None]) ->
 
 
 def _all(steps: Steps, constants: Constants, relations: dict[Relation, None]) -> tuple[Explained, ...]:
-    return tuple(_one(step, constants, relations) for step in steps)
+    explained: list[Explained] = []
+    for step in steps:
+        if isinstance(step, Join):
+            continue
+        explained.append(_one(step, constants, relations))
+        if isinstance(step, Branch) and step.rests:
+            ways = tuple(_all(rest.steps, constants, relations) for rest in step.rests)
+            explained += ways[0] if len(ways) == 1 else [explained[-1]._replace(inner=ways)]
+    return tuple(explained)
 
 
-def _one(step: Step, constants: Constants, relations: dict[Relation, None]) -> Explained:
+def _one(
+    step: Look | Test | Absent | Present | Branch, constants: Constants, relations: dict[Relation, None]
+) -> Explained:
     if isinstance(step, Look):
         relation = step.relation
         relations[relation] = None

@@ -15,7 +15,7 @@ from eslang.base.symbols import Keyword, Symbol
 from eslang.facts.goals import Atom, Constant, Constants, Nested, Shape, unbound, variables_of
 from eslang.facts.relations import Positions, Relation
 from eslang.facts.rules import Name, Rule
-from eslang.facts.steps import Absent, Arranger, Bound, Branch, Look, Present, Steps, Test, is_known
+from eslang.facts.steps import Arranger, Bound, Branch, Look, Steps, Test, is_known, ways_of
 from eslang.facts.transitive import ends_of, walking
 
 UNBOUNDED = Keyword("UNBOUNDED-RULES")
@@ -180,10 +180,8 @@ def looks(steps: Steps) -> Iterator[Look]:
     for step in steps:
         if isinstance(step, Look):
             yield step
-        elif isinstance(step, Absent):
-            yield from looks(step.steps)
-        elif not isinstance(step, Test):
-            for way in step.ways:
+        else:
+            for way in ways_of(step):
                 yield from looks(way)
 
 
@@ -197,10 +195,8 @@ def tests(steps: Steps) -> Iterator[Symbol]:
     for step in steps:
         if isinstance(step, Test):
             yield step.atom.name
-        elif isinstance(step, Absent):
-            yield from tests(step.steps)
-        elif isinstance(step, Present | Branch):
-            for way in step.ways:
+        else:
+            for way in ways_of(step):
                 yield from tests(way)
 
 
@@ -237,7 +233,8 @@ def _always_bound(steps: Steps, bound: Bound) -> Bound:
         if isinstance(step, Look):
             bound |= variables_of(step.atom).keys()
         elif isinstance(step, Branch):
-            ways = [_always_bound(way, bound) for way in step.ways]
+            ways = [_always_bound(rest.steps, rest.bound) for rest in step.rests]
+            ways = ways or [_always_bound(way, bound) for way in step.ways]
             bound = ways[0].intersection(*ways) if ways else bound
     return bound
 

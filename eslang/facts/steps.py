@@ -63,16 +63,33 @@ class Present(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """Go each of these ways; each holds all that is still to be done."""
+    """Go each of these ways; each holds all that is still to be done, or leads to one of the rests."""
 
     goal: Either
     ways: tuple[Steps, ...]
+    rests: list[Rest]
 
 
-Step = Look | Test | Absent | Present | Branch
+class Rest(NamedTuple):
+    """What is still to be done behind an OR, for all ways that bind the same variables."""
+
+    number: int
+    bound: Bound
+    steps: Steps
+
+
+class Join(NamedTuple):
+    """The end of a way: go on with the rest of this number, unless that was done with the same values."""
+
+    number: int
+
+
+Step = Look | Test | Absent | Present | Branch | Join
 Steps = list[Step]
+End = Callable[[Bound], Join]  # where a way goes on that binds these variables
 
-MOST = 5000  # ways through the ORs of one body that bind variables: they multiply
+MANY = 8  # ways through the ORs of a body, one after the other: if there are more, the ways are joined
+MOST = 5000  # ways of one body, all in all: they multiply if they bind different variables
 GROUND, DECIDED, DETERMINED, JOINED, KNOWN, ITSELF, UNKNOWN = range(7)  # how promising a goal is
 
 
@@ -93,6 +110,7 @@ class Arranger:
         self.rules = rules  # what answers by rules, or None (procs.py); fails where they cannot run
         self.constants = constants
         self._room: int | None = None  # for ways through further ORs, after the first one
+        self._rests = 0
         self._ways: dict[tuple[int, Bound], Steps] = {}  # for goals that stand alone, by their identity
 
     def _way(self, goal: Goal, bound: Bound) -> Steps:
@@ -102,31 +120,54 @@ class Arranger:
             found = self._ways[id(goal), bound] = self.arrange((goal,), bound)
         return found
 
-    def arrange(self, goals: tuple[Goal, ...], bound: Bound) -> Steps:
-        """The steps for GOALS, when BOUND variables have values."""
+    def arrange(self, goals: tuple[Goal, ...], bound: Bound, end: End | None = None) -> Steps:
+        """The steps for GOALS, when BOUND variables have values; what comes at the END of every way."""
         steps: Steps = []
         left = _flat(goals)
         while left:
             number = self._next(left, bound)
             goal = left.pop(number)
             if isinstance(goal, Either) and not self._is_decided(goal, bound):
-                rest = tuple(left)
-                self._make_ways(goal)
-                if rest:
-                    ways = tuple(self.arrange((each, *rest), bound) for each in goal.goals)
-                else:
-                    ways = tuple(self._way(each, bound) for each in goal.goals)
-                return [*steps, Branch(goal, ways)]
+                return [*steps, self._branch(goal, tuple(left), bound, end)]
             steps.append(self._step(goal, bound))
             if isinstance(goal, Atom):
                 bound = bound.union(variables_of(goal))
-        return steps
+        return steps if end is None else [*steps, end(bound)]
 
-    def _make_ways(self, goal: Either) -> None:
-        """Take note of the ways through GOAL; fail if they multiply."""
+    def _branch(self, goal: Either, left: tuple[Goal, ...], bound: Bound, end: End | None) -> Branch:
+        """The step for GOAL, which has several ways, with all that is LEFT behind it."""
         self._room = MOST if self._room is None else self._room - len(goal.goals)
         if self._room < 0:
             raise simple_error("there are too many ways through the ORs of this query: make one a rule")
+        if left and self._count_ways((goal, *left), bound) > MANY:
+            rests: list[Rest] = []
+            join = self._joining(rests, left, end)
+            return Branch(goal, tuple(self.arrange((each,), bound, join) for each in goal.goals), rests)
+        if left or end is not None:
+            return Branch(goal, tuple(self.arrange((each, *left), bound, end) for each in goal.goals), [])
+        return Branch(goal, tuple(self._way(each, bound) for each in goal.goals), [])
+
+    def _count_ways(self, goals: tuple[Goal, ...], bound: Bound) -> int:
+        """How many ways lead through the ORs among GOALS."""
+        count = 1
+        for goal in goals:
+            if isinstance(goal, Either) and not self._is_decided(goal, bound):
+                count *= max(len(goal.goals), 1)
+        return count
+
+    def _joining(self, rests: list[Rest], left: tuple[Goal, ...], end: End | None) -> End:
+        """What ends ways that are joined: what is LEFT is arranged once for all, as one of RESTS."""
+
+        def join(bound: Bound) -> Join:
+            for rest in rests:
+                if rest.bound == bound:
+                    return Join(rest.number)
+            self._rests += 1
+            number = self._rests
+            rests.append(Rest(number, bound, self.arrange(left, bound, end)))
+            return Join(number)
+
+        return join
 
     def _step(self, goal: Goal, bound: Bound) -> Step:
         """The step for a GOAL that is ready."""
@@ -219,6 +260,15 @@ class Arranger:
     def form(self, goal: Goal) -> Value:
         """GOAL as it was written."""
         return form_of(goal, self.constants)
+
+
+def ways_of(step: Step) -> tuple[Steps, ...]:
+    """The steps inside STEP."""
+    if isinstance(step, Absent):
+        return (step.steps,)
+    if isinstance(step, Branch):
+        return (*step.ways, *(rest.steps for rest in step.rests))
+    return step.ways if isinstance(step, Present) else ()
 
 
 def _flat(goals: tuple[Goal, ...]) -> list[Goal]:

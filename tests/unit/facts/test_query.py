@@ -345,14 +345,3 @@ def test_what_is_too_deep_for_a_query_is_a_failure() -> None:
         with pytest.raises(Failure) as caught:
             Asking().all(query)
         assert caught.value.cause.name == "STACK-EXHAUSTED"
-
-
-def test_ors_that_would_multiply_without_end_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("eslang.facts.steps.MOST", 20)
-    parts = [f"(or (p{number} ?x{number}) (q{number} ?x{number}))" for number in range(30)]
-    facts = Asking("(p0 1)", "(q1 2)", "(p2 3)")
-    assert facts.answers(f"(and {' '.join(parts[:3])})") == ["1 2 3"]
-    with pytest.raises(Failure, match="too many ways through the ORs"):
-        facts.answers(f"(and {' '.join(parts)})")
-    wide = " ".join(f"(p{number} ?x)" for number in range(100))
-    assert facts.answers(f"(or {wide})") == ["1", "3"]
