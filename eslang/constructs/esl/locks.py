@@ -93,10 +93,12 @@ def with_maintained_properties(form: Cons, environment: Any) -> Value:
     Source: ARM §4. What is held when: decision 30; recoveries: decision 31.
     """
     properties, body = form.cdr.car, form.cdr.cdr
-    alone = properties.__class__ is Cons and properties.car.__class__ is not Cons
+    alone = properties is not None and (
+        properties.__class__ is not Cons or properties.car.__class__ is not Cons
+    )
     holder = form.cdr if alone else properties
     wanted = []
-    while holder is not None and holder.__class__ is Cons:
+    while holder.__class__ is Cons:
         if not is_property_form(holder.car):
             wrong = f"`{shown(holder.car)}` is no property"
             hint = "write `(name argument... value)`"
