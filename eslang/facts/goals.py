@@ -16,6 +16,7 @@ from eslang.facts.unify import is_variable
 
 CL = "COMMON-LISP"
 AND, OR, NOT = (Symbol.intern(name, CL) for name in ("AND", "OR", "NOT"))
+FACT, RELATION = (Symbol.intern(name, "ESL") for name in ("FACT", "RELATION"))  # types, for messages
 UNBOUND = Keyword("UNBOUND-LOGIC-VARIABLE")
 DEEPEST = 500  # goals and terms with variables inside one another; what is made of them uses the C stack
 CONNECTIVES = frozenset((AND, OR, NOT))
@@ -101,7 +102,7 @@ def _read_goal(goal: Value, given: Given, tokens: list[Any], constants: Constant
         raise type_error(goal, "LIST")
     name = goal.car
     if not isinstance(name, Symbol) or is_variable(name):
-        raise type_error(name, "RELATION")
+        raise type_error(name, RELATION)
     tokens.append(name)
     parts = items(goal.cdr)
     if name in CONNECTIVES:

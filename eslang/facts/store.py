@@ -14,6 +14,8 @@ from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import (
     CONNECTIVES,
+    FACT,
+    RELATION,
     Atom,
     Constants,
     read_query,
@@ -65,7 +67,7 @@ class Store:
     def check_name(self, name: Value) -> None:
         """Fail if no relation can be called NAME."""
         if not isinstance(name, Symbol) or is_variable(name) or name in self.reserved:
-            raise type_error(name, "RELATION")
+            raise type_error(name, RELATION)
 
     def named(self, name: Symbol) -> list[Relation]:
         """The relations of that name, whatever their arity."""
@@ -95,7 +97,7 @@ class Store:
         is_plain = True
         while rest.__class__ is Cons:
             if len(row) == LONGEST:
-                raise type_error(fact, "FACT")
+                raise type_error(fact, FACT)
             term = rest.car
             rest = rest.cdr
             kind = term.__class__
@@ -189,7 +191,7 @@ class Store:
             tokens, constants = read_query(pattern)
             atom = shape_of(tokens).goal
             if not isinstance(atom, Atom):
-                raise type_error(pattern, "FACT")
+                raise type_error(pattern, FACT)
             relation = self.relation(atom.name, len(atom.terms))
             if len(self._patterns) >= MANY:
                 self._patterns.clear()
