@@ -202,7 +202,9 @@ class PropertyLocks:
             if each is not subscription:
                 self.fail(each, make())
         self.go_on(lock)
-        failures.signal(make(), continuable=True)
+        own = make()
+        own.origin = None  # it comes from this very task
+        failures.signal(own, continuable=True)
 
     def maker(
         self, cause: Keyword, claim: Claim, failure: Failure | None, origin: Task | None
