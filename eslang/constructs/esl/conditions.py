@@ -18,16 +18,17 @@ from eslang.compile.registry import CL, ESL, function
 from eslang.constructs.esl.queries import LOGICAL_BINDING, in_force, mentions_binding
 from eslang.facts.unify import is_variable
 
-AND, OR, NOT, IF, QUOTE, LIST, PROGN, LAMBDA, FUNCTION, FUNCALL, QUASIQUOTE = (
+AND, OR, NOT, IF, QUOTE, LIST, PROGN, LAMBDA, FUNCTION, FUNCALL, QUASIQUOTE, UNQUOTE, LET = (
     Symbol.intern(name, CL)
     for name in (
         *("AND", "OR", "NOT", "IF", "QUOTE", "LIST", "PROGN", "LAMBDA", "FUNCTION", "FUNCALL"),
-        "QUASIQUOTE",
+        *("QUASIQUOTE", "UNQUOTE", "LET"),
     )
 )
 WHERE_FUNCTION = Symbol.intern("%WHERE-FUNCTION", CL)
-CALLS, HOLDS, ASKS_LISP, IN_FORCE = (
-    Symbol.intern(name, ESL) for name in ("%CALLS-P", "%HOLDS-P", "%ASKS-LISP", "%IN-FORCE")
+CALLS, HOLDS, ASKS_LISP, IN_FORCE, COMPUTED = (
+    Symbol.intern(name, ESL)
+    for name in ("%CALLS-P", "%HOLDS-P", "%ASKS-LISP", "%IN-FORCE", "%COMPUTED-CONDITION")
 )
 CONNECTIVES = (AND, OR, NOT)
 
@@ -103,6 +104,29 @@ def instance_form(condition: Value, environment: Any) -> Value:
         return term_form(condition)
     computed = Cons(LIST, Cons(operator, condition.cdr))
     return if_called(condition.car, computed, term_form(condition))
+
+
+def computed_once(condition: Value) -> tuple[Value, Value]:
+    """CONDITION, with variables in place of what stands under backquotes in it; and how LET binds these."""
+    bindings: list[Value] = []
+
+    def computed(part: Value) -> Value:
+        if not is_compound(part):
+            return part
+        if part.car is QUASIQUOTE:
+            name = Symbol.uninterned("CONDITION")
+            bindings.append(lisp_list(name, lisp_list(COMPUTED, part)))
+            return lisp_list(QUASIQUOTE, lisp_list(UNQUOTE, name))
+        if part.car in CONNECTIVES:
+            return Cons(part.car, from_items([computed(each) for each in items(part.cdr)]))
+        return part
+
+    return computed(condition), from_items(bindings)
+
+
+def with_variables(bindings: Value, form: Value) -> Value:
+    """FORM, inside a LET with these BINDINGS if there are any."""
+    return form if bindings is None else lisp_list(LET, bindings, form)
 
 
 def is_compound(condition: Value) -> bool:
@@ -212,6 +236,12 @@ def asks_lisp() -> Value:
 def condition_in_force(condition: Value) -> Value:
     """Give CONDITION with the values of the #?x in it."""
     return in_force(condition)
+
+
+@function("(%computed-condition condition)", ESL)
+def computed_condition(condition: Value) -> Value:
+    """Give CONDITION, which stands under a backquote: `esl check` reads it here."""
+    return condition
 
 
 @function("(%holds-p query)", ESL)

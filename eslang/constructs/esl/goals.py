@@ -8,7 +8,13 @@ from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.esl.conditions import instance_form, term_form, test_form
+from eslang.constructs.esl.conditions import (
+    computed_once,
+    instance_form,
+    term_form,
+    test_form,
+    with_variables,
+)
 from eslang.runtime import failures
 from eslang.runtime.story import place_here
 
@@ -90,10 +96,10 @@ def achieve(form: Cons, environment: Any) -> Value:
 
     Source: ESL §3; causes: language reference §3.
     """
-    condition = form.cdr.car
+    condition, bindings = computed_once(form.cdr.car)
     test = lisp_list(LAMBDA, None, test_form(condition, environment))
     instance = lisp_list(LAMBDA, None, instance_form(condition, environment))
-    return lisp_list(ACHIEVE, term_form(condition), instance, test)
+    return with_variables(bindings, lisp_list(ACHIEVE, term_form(condition), instance, test))
 
 
 @function("(%define-goal pattern methods)", ESL)

@@ -216,7 +216,7 @@ def literal(node: Node) -> Value:
     return UNKNOWN
 
 
-CALLS, DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE, DEFINE_GOAL, HOLDS, BINDINGS = (
+CALLS, DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE, DEFINE_GOAL, HOLDS, COMPUTED, BINDINGS = (
     Symbol.intern(name, ESL)
     for name in (
         "%CALLS-P",
@@ -225,6 +225,7 @@ CALLS, DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE, DEFINE_GOAL, HOLDS, BINDIN
         "%DEFINE-RULE",
         "%DEFINE-GOAL",
         "%HOLDS-P",
+        "%COMPUTED-CONDITION",
         "%CALL-WITH-QUERY-BINDINGS",
     )
 )
@@ -242,6 +243,7 @@ READERS: dict[Symbol, Callable[[Mentions, Use, list[Any]], None]] = {
     EXPLAIN_QUERY: Mentions.ask,
     BINDINGS: Mentions.ask,
     HOLDS: Mentions.hold,
+    COMPUTED: Mentions.hold,
     DEFINE_GOAL: Mentions.define_goal,
     DEFINE_RELATION: Mentions.define_relation,
     DEFINE_PROPERTY: Mentions.define_relation,

@@ -194,3 +194,21 @@ def test_what_changes_while_a_test_of_the_condition_waits_is_not_lost() -> None:
     asked = Questions(text)
     assert asked.lines == ["T"]
     assert asked.count < 6
+
+
+def test_what_stands_under_a_backquote_is_computed_once() -> None:
+    text = """
+    (defvar *computed* 0)
+    (defun which () (incf *computed*) 3)
+    (spawn (dotimes (i 5) (sleep 1) (assert `(at cup ,i))))
+    (wait-until (and `(at cup ,(which)) (not `(at cup ,(1+ (which))))))
+    (print *computed*)
+    (whenever `(at cup ,(1+ (which))) (return))
+    (print *computed*)
+    (to-achieve (lit ?n) (t (assert '(lit #?n))))
+    (achieve `(lit ,(which)))
+    (print *computed*)
+    """
+    asked = Questions(text)
+    assert asked.lines == ["2", "3", "4"]
+    assert asked.count < 10
