@@ -29,6 +29,8 @@ from worlds import (
 )
 
 from eslang.base.failure import Failure
+from eslang.base.lists import items
+from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import UNBOUND
 from eslang.facts.query import Facts
 from naive.queries import Bindings, Goal, Rule, Unsafe, World, check_safe, key, variables, ways
@@ -79,7 +81,14 @@ def check_answers(facts: Facts, world: World, query: Goal, bindings: Bindings) -
     assert solved(facts.solutions(asked, values)) == answers
     for first in (facts.first(asked, values), facts.ask(asked, values)[0]):
         assert (solved([first]) if first is not None else []) == answers[:1]
+    if not bindings:
+        assert solved(map(from_alist, items(facts.alists(asked, lambda whole: whole)))) == answers
     assert solved(facts.all(asked, values)) == answers
+
+
+def from_alist(alist: Value) -> dict[Symbol, Value]:
+    """A solution as Python has it."""
+    return {pair.car: pair.cdr for pair in items(alist)}
 
 
 def check_refused(facts: Facts, query: Goal, bindings: Bindings) -> None:
