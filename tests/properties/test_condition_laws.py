@@ -215,6 +215,7 @@ class History:
     ACTORS,
     st.one_of(st.none(), st.integers(0, 99)),
     st.sampled_from([1, 500]),
+    st.sampled_from(["", "(defproperty q) (defproperty e)"]),
 )
 def test_a_condition_wakes_who_waits_when_it_comes_to_be_true_and_nobody_asks_in_vain(
     told: list[Goal],
@@ -223,23 +224,30 @@ def test_a_condition_wakes_who_waits_when_it_comes_to_be_true_and_nobody_asks_in
     actors: list[list[Any]],
     seed: int | None,
     rows: int,
+    declarations: str,
 ) -> None:
     known = taken(database([]), candidates)
     limit = sys.getrecursionlimit()  # plans have another
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("eslang.facts.views.SLICE", rows)  # between two pauses of a query
         try:
-            check_run(told, known, conditions, actors, seed)
+            check_run(told, known, conditions, actors, seed, declarations)
         finally:
             sys.setrecursionlimit(limit)
 
 
 def check_run(
-    told: list[Goal], known: list[Rule], conditions: list[Any], actors: list[list[Any]], seed: int | None
+    told: list[Goal],
+    known: list[Rule],
+    conditions: list[Any],
+    actors: list[list[Any]],
+    seed: int | None,
+    declarations: str,
 ) -> None:
     """Run the plan, and see whether the laws hold."""
     interp = Interpreter(clock="virtual", output=StringIO(), shuffle=seed is not None, seed=seed or 0)
     with interp:
+        interp.eval(f"(progn {declarations})")
         for rule in known:
             interp.database.define_rule(lisp(rule.head), lisp(rule.body))
         for fact in told:
