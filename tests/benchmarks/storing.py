@@ -102,7 +102,7 @@ def of_conditions(count: int) -> Taken:
     facts = Facts(lambda name: False, lambda name, arguments: False)
     facts.declare_property(SWITCH)
     queries = [lisp_list(SWITCH, number, Keyword("on")) for number in range(count)]
-    kept: list[Any] = []
+    kept: list[Any] = [facts.ask(lisp_list(SWITCH, 0, Keyword("off")))]  # and now there is a plan
 
     def wait() -> None:
         for query in queries:
