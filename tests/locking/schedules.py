@@ -28,7 +28,7 @@ class Schedule:
         return index
 
     def following(self, depth: int) -> list[int]:
-        """The course behind this one: the last of its first choices, DEPTH of them, that can be another is."""
+        """The course behind this one: of its first DEPTH choices the last is another that can be."""
         choices = self.choices[:depth]
         while choices and choices[-1][0] + 1 == choices[-1][1]:
             choices.pop()

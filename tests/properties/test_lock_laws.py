@@ -33,7 +33,7 @@ def interp() -> Interpreter:
 def test_no_plan_leaves_or_misses_anything(
     interp: Interpreter, doings: Any, ways: Any, recoveries: Any, seed: int
 ) -> None:
-    """No contradiction, no dead subscriber, no violation unnoticed, nothing left, and nobody waits in vain."""
+    """No contradiction, no dead subscriber, no violation unnoticed, nothing left; nobody waits in vain."""
     chance = random.Random(seed)
     interp.hooks.listeners.clear()
     world = judged(World(interp), lambda ready: chance.randrange(len(ready)) if seed else 0)
