@@ -30,6 +30,14 @@ class Property(NamedTuple):
     text: str  # as people see them; several are taken in the order of this
 
 
+class Sight(NamedTuple):
+    """What a look at a property has found."""
+
+    holds: bool
+    forget: Callable[[], None]  # ends the watch over what it rests on
+    is_unsteady: bool = False  # it may change without a word: it rests on what cannot be watched
+
+
 def nothing() -> None:
     """Do nothing."""
 

@@ -81,7 +81,8 @@ def wrongs(world: World) -> list[str]:
         if any(each.task.status is not None for each in lock.subscriptions):
             found.append(f"a task that has ended is subscribed to {lock.key}")
         for claim in lock.claims:
-            noticed = claim in world.keeper.suspects and world.keeper.daemon is not None
+            seen = claim in world.keeper.suspects or claim in world.keeper.unsteady
+            noticed = seen and world.keeper.daemon is not None
             if claim.standing == "achieved" and not (world.holds(claim.property) or noticed):
                 found.append(f"nobody has noticed that {claim.property.text} is violated")
     return found

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from locking.plans import bodies, body_of, method_of, methods
+from locking.plans import KEYS, bodies, body_of, method_of, methods
 from locking.schedules import judged
 from locking.world import World
 
@@ -29,14 +29,21 @@ def interp() -> Interpreter:
 
 
 @RELAXED
-@given(doings=bodies, ways=methods, recoveries=methods, seed=st.integers(0, 2**32))
+@given(
+    doings=bodies,
+    ways=methods,
+    recoveries=methods,
+    unsteady=st.sets(st.sampled_from(KEYS), max_size=1),
+    seed=st.integers(0, 2**32),
+)
 def test_no_plan_leaves_or_misses_anything(
-    interp: Interpreter, doings: Any, ways: Any, recoveries: Any, seed: int
+    interp: Interpreter, doings: Any, ways: Any, recoveries: Any, unsteady: set[str], seed: int
 ) -> None:
     """No contradiction, no dead subscriber, no violation unnoticed, nothing left; nobody waits in vain."""
     chance = random.Random(seed)
     interp.hooks.listeners.clear()
     world = judged(World(interp), lambda ready: chance.randrange(len(ready)) if seed else 0)
+    world.unsteady = unsteady
     for key, kind in ways.items():
         world.methods[key] = method_of(world, kind)
     for key, kind in recoveries.items():

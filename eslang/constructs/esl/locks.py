@@ -23,7 +23,7 @@ from eslang.constructs.esl.watching import Inquiry
 from eslang.facts.unify import is_variable, unifiable
 
 if TYPE_CHECKING:
-    from eslang.runtime.claims import Property
+    from eslang.runtime.claims import Property, Sight
     from eslang.runtime.locks import PropertyLocks
 
 MAINTAIN, ACHIEVE_PROPERTY, RECOVERY_FUNCTION, WITH = (
@@ -197,13 +197,18 @@ def value_of(wanted: Property) -> Value:
     return items(wanted.form)[-1]
 
 
-def observe(wanted: Property, changed: Callable[[], None]) -> tuple[bool, Callable[[], None]]:
-    """Whether WANTED holds, and what ends the watch over what that rests on; it calls CHANGED."""
+def observe(wanted: Property, changed: Callable[[], None]) -> Sight:
+    """Whether WANTED holds; a change of the facts that this rests on calls CHANGED."""
+    from eslang.runtime.claims import Sight
+
     dynamic = running.session.dynamic
     inquiry = Inquiry(lambda change: changed())
     outer, dynamic.logical = dynamic.logical, dynamic.logical._replace(inquiry=inquiry)
     try:
-        return holds_p(wanted.form) is not None, inquiry.end
+        holds = holds_p(wanted.form) is not None
+        if inquiry.is_overtaken:
+            changed()
+        return Sight(holds, inquiry.end, inquiry.asked_lisp)
     except BaseException:
         inquiry.end()
         raise

@@ -81,7 +81,7 @@ def test_a_change_while_the_daemon_looks_is_noticed() -> None:
     world = World()
     look, looks = world.observe, []
 
-    def slowly(one: Any, changed: Callable[[], None]) -> tuple[bool, Callable[[], None]]:
+    def slowly(one: Any, changed: Callable[[], None]) -> Any:
         looks.append(one)
         found = look(one, changed)
         if len(looks) == 2:

@@ -398,3 +398,49 @@ def test_the_end_of_the_run_releases_everything(world: World) -> None:
         )
         world.interp.runs.abort_all()
     assert world.remains() == []
+
+
+# --- what cannot be watched ------------------------------------------------------------
+
+
+def test_what_changes_without_a_word_is_looked_at_after_each_step(world: World) -> None:
+    world.unsteady.add("p")
+    lines = world.run(a=tolerant(world, "p=1", 4), b=world.hold("p=1", 9), c=spoiling(world, 2))
+    assert lines[3:] == [
+        "2 c: p=0",
+        "2 a: waits for p=1",
+        "2 b: :MAINTAINED-PROPERTY-VIOLATION p=1",
+        "2 recovery: switch p=1",
+        "3 a: goes on",
+        "5 a: done",
+    ]
+
+
+def test_what_restores_itself_without_a_word_is_restored(world: World) -> None:
+    world.unsteady.add("p")
+    world.recoveries["p"] = lambda one: (world.sleep(1), world.set("p", "1"), world.sleep(1))
+    lines = world.run(a=tolerant(world, "p=1", 9), c=spoiling(world, 2), d=world.hold("q=1", 20))
+    assert "4 a: goes on" in lines
+    assert lines[-1] == "21 d: done"
+
+
+def test_steady_and_unsteady_properties_are_maintained_side_by_side(world: World) -> None:
+    world.unsteady.add("p")
+    lines = world.run(
+        a=tolerant(world, "p=1", 9),
+        b=tolerant(world, "q=1", 9),
+        c=spoiling(world, 2),
+        d=spoiling(world, 3, "q"),
+    )
+    assert [line for line in lines if "goes on" in line] == ["3 a: goes on", "4 b: goes on"]
+
+
+def test_a_deadlock_is_found_though_something_is_looked_at_all_the_time(world: World) -> None:
+    from eslang.runtime.events import Event
+
+    world.unsteady.add("p")
+    event = Event("never")
+    lines = world.run(
+        a=lambda: world.noting(lambda: world.maintain("p=1", lambda: world.scheduler.wait_for(event)))
+    )
+    assert lines[1].startswith("1 a: :DEADLOCK")

@@ -147,3 +147,14 @@ def test_the_locks_of_a_run_that_was_stopped_are_free() -> None:
         assert agent.locks is not None
         assert agent.locks.holdings() == []
         assert agent.eval("(with-maintained-properties ((lamp hall :off)) 5)") == 5
+
+
+def test_a_property_that_rests_on_a_variable_is_maintained_as_well() -> None:
+    text = """(defvar *limit* 10)
+      (defrelation load)
+      (defrule (safe ?where :yes) (load ?where ?amount) (< ?amount *limit*))
+      (assert '(load hall 5))
+      (task-net (a (with-recovery-procedures (((:maintained-property-violation what) (abort (print what))))
+                     (with-maintained-properties ((safe hall :yes)) (sleep 60) (print :never))))
+                (b (sleep 2) (setq *limit* 3)))"""
+    assert lines_of(text) == ["(SAFE HALL :YES)"]
