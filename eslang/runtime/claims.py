@@ -93,9 +93,12 @@ class Claim:
 
     def persists(self) -> bool:
         """True if it has subscribers that are not on their way out of everything, or wait for it even so."""
-        if self.violation is not None and self.violation.waits:
-            return True
-        return any(each.task.ending is None or each.wait is not None for each in self.subscriptions)
+        awaited = {} if self.violation is None else {wait.task: None for wait in self.violation.waits}
+        return any(
+            each.task.status is None
+            and (each.task.ending is None or each.wait is not None or each.task in awaited)
+            for each in self.subscriptions
+        )
 
     def stand(self, standing: str, now: float) -> None:
         """From NOW on it is STANDING so."""

@@ -350,6 +350,7 @@ class PropertyLocks:
             )
             for lock in self.locks.values()
             for each in lock.subscriptions
+            if each.task.status is None  # else it has gone with its thread
         ]
 
     def now(self) -> float:

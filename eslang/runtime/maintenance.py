@@ -106,7 +106,7 @@ class Maintenance:
 
     def _rouse(self) -> None:
         """There is something for the daemon to do."""
-        if self.daemon is None:
+        if self.daemon is None or self.daemon.status is not None:
             self.daemon = self._start("maintain-properties", self._keep, self._daemon_ended)
         else:
             self.scheduler.make_ready(self.daemon)
@@ -230,7 +230,8 @@ class Maintenance:
         if violation is not None:
             violation.is_over, violation.failure = True, failure or violation.failure
             for wait in list(violation.waits):
-                self.scheduler.end_wait(wait, None)
+                if wait.task.status is None:  # else it has gone with its thread
+                    self.scheduler.end_wait(wait, None)
 
     # --- recovering --------------------------------------------------------------
 
@@ -277,8 +278,11 @@ class Maintenance:
     def call_off(self, claim: Claim) -> None:
         """Nobody is left who wants CLAIM to be restored."""
         claim.is_moot = True
-        if claim.recovery is not None:
+        if claim.recovery is not None and claim.recovery.status is None:
             self.scheduler.lives.abort(claim.recovery, "recovery")
+        else:  # it has gone with the thread that it lived in
+            claim.recovery = None
+            self.locks.remove(claim)
 
     # --- waiting for a recovery ----------------------------------------------------
 

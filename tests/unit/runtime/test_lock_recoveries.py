@@ -215,3 +215,31 @@ def test_an_aborted_subscriber_does_not_make_the_daemon_recover(world: World) ->
         d=lambda: (world.sleep(2), world.abort("a")),
     )
     assert lines == ["0 a: switch p=1", "2.5 c: p=0"]
+
+
+def test_the_locks_of_tasks_that_have_gone_with_their_thread_are_free(world: World) -> None:
+    from threading import Thread
+
+    world.recoveries["p"] = lambda one: world.sleep(99)
+
+    def live() -> None:
+        with world.interp.door():
+            world.interp.runs.enter(
+                lambda: [
+                    world.spawn("a", tolerant(world, "p=1", 99)),
+                    world.spawn("b", tolerant(world, "q=1", 99)),
+                    world.spawn("c", spoiling(world, 2)),
+                    world.sleep(3),
+                ]
+            )
+
+    thread = Thread(target=live)
+    thread.start()
+    thread.join()
+    world.lines.clear()
+    world.tasks.clear()
+    lines = world.run(d=world.hold("p=2", 1), e=tolerant(world, "q=2", 9), f=spoiling(world, 3, "q"))
+    assert [line.partition(": ")[2] for line in lines] == [
+        *("switch p=2", "switch q=2", "in", "in", "done"),
+        *("q=0", "waits for q=2", "switch q=2", "goes on", "done"),
+    ]
