@@ -33,6 +33,11 @@ class Inquiry:
         self.watches: list[Watch] = []
         self.stir = stir
 
+    @property
+    def is_of_one_moment(self) -> bool:
+        """Whether all facts that count were asked for at once; where Lisp is asked, too, there is no more."""
+        return self.asked_lisp or len(self.watches) < 2
+
     def note(self, solution: dict[Symbol, Value] | None, reads: Reads) -> None:
         """A query had this SOLUTION, for which it read that."""
         from eslang.facts.watching import watch
@@ -86,8 +91,9 @@ class Look:
                 dynamic.logical = outer._replace(inquiry=self.inquiry)
                 step = self.scheduler.steps
                 value = self.test()
-                is_late = self.inquiry.is_overtaken and self.scheduler.steps != step  # it has waited
-                if value is not None or not (self.inquiry.is_stale or is_late):
+                inquiry = self.inquiry
+                is_late = inquiry.is_overtaken and self.scheduler.steps != step  # it has waited
+                if not (inquiry.is_stale or is_late) or (value is not None and inquiry.is_of_one_moment):
                     break
         finally:
             dynamic.logical = outer

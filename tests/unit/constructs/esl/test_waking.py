@@ -196,6 +196,21 @@ def test_what_changes_while_a_test_of_the_condition_waits_is_not_lost() -> None:
     assert asked.count < 6
 
 
+def test_parts_of_a_condition_that_are_true_one_after_the_other_are_not_true(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("eslang.facts.views.SLICE", 1)  # queries give way after every row
+    text = """
+    (dotimes (i 20) (assert (list 'row i)))
+    (assert '(last 19)) (assert '(on a))
+    (spawn (progn (wait-until '(begin)) (sleep 0) (update '(on ?_) '(on b))) :daemon t)
+    (spawn (progn (sleep 1) (assert '(begin))) :daemon t)
+    (print (with-recovery-procedures (:timeout (abort :never))
+      (wait-until (and (begin) '(and (on a) (row ?y) (last ?y)) (on b)) :timeout 100)))
+    """
+    assert lines_of(text)[-1] == ":NEVER"
+
+
 def test_what_stands_under_a_backquote_is_computed_once() -> None:
     text = """
     (defvar *computed* 0)
