@@ -110,6 +110,8 @@ class Knowledge:
         It is called when a change has been made, in the thread that made it, and is not to wait.
         What it raises is a failure of what made the change, after all others have heard of that.
         """
+        if not callable(subscriber):
+            raise TypeError(f"a subscriber is called with each change, and {subscriber!r} cannot be")
         subscription = Subscription(subscriber)
         self._change(subscription.begin, relation)
 

@@ -84,6 +84,8 @@ def hint_for(failure: Failure, interp: Any) -> str | None:
         return None
     if symbol.name.startswith("?") and failure.cause is UNBOUND_VARIABLE:
         return f"`#{symbol.name.lower()}` is its value, in a form that binds it (with-query-bindings, say)"
+    if failure.cause is UNDEFINED_FUNCTION and interp.is_relation(symbol):
+        return f"`{symbol.name.lower()}` is a relation: facts and queries that are data stand under a quote"
     package = package_with(symbol, interp)
     if package is not None:
         return (

@@ -190,6 +190,12 @@ def test_a_change_tells_what_it_did(agent: Interpreter) -> None:
     assert len(facts) == 0
 
 
+def test_who_is_to_hear_of_changes_can_be_called(agent: Interpreter) -> None:
+    with pytest.raises(TypeError, match="each change, and 5 cannot be"):
+        agent.facts.subscribe(5)  # type: ignore[arg-type]
+    assert agent.facts.add("raining") is True
+
+
 def test_update_is_one_change(agent: Interpreter) -> None:
     facts = agent.facts
     facts.add_all(["(at cup table)", "(at cup shelf)"])

@@ -165,7 +165,9 @@ def whenever(form: Cons, environment: Any) -> Value:
     """Run BODY each time that CONDITION becomes true, and now if it is true.
 
     In BODY, #?X is what the logic variable ?X of CONDITION was bound to. A
-    change that comes and goes while BODY runs is not seen. RETURN leaves.
+    change that comes and goes while BODY runs is not seen; and as long as
+    CONDITION stays true, with whatever values, BODY is not run again. To serve
+    all that there is, LOOP around WAIT-UNTIL. RETURN leaves.
 
     Returns: what RETURN gives.
     Fails:   as BODY does; :deadlock if nothing runs that could change CONDITION.

@@ -30,6 +30,16 @@ from eslang.tools.fact_hints import fact_hint
             "the logic variable ?X has no value in (NOT (P ?X))",
             "a pattern beside the NOT has to say what `?x` may be; under NOT, `?_` is anything",
         ),
+        (
+            "(progn (defrelation near) (db-query (near ?x ?y)))",
+            "the function NEAR is undefined",
+            "`near` is a relation: facts and queries that are data stand under a quote",
+        ),
+        (
+            "(progn (assert '(near a b)) (assert (near 2 3)))",
+            "the function NEAR is undefined",
+            "`near` is a relation: facts and queries that are data stand under a quote",
+        ),
         ("(assert '(p ?x))", "the logic variable ?X has no value in (P ?X)", None),
         (
             "(defrule (a ?x) (p ?x) (not (a ?x)))",
