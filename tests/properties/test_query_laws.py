@@ -40,14 +40,21 @@ LAW = settings(max_examples=150, deadline=None, suppress_health_check=[HealthChe
 
 
 @LAW
-@given(FACTS, st.lists(rules(), max_size=5), st.lists(QUERIES, min_size=1, max_size=4))
+@given(
+    FACTS,
+    st.lists(rules(), max_size=5),
+    st.lists(QUERIES, min_size=1, max_size=4),
+    st.sampled_from([1, 16]),
+)
 def test_a_query_answers_what_trying_everything_finds(
-    told: list[Goal], candidates: list[Rule], queries: list[Goal]
+    told: list[Goal], candidates: list[Rule], queries: list[Goal], many: int
 ) -> None:
     facts = database(told)
     world = World(told, taken(facts, candidates))
-    for query in queries:
-        check_answers(facts, world, query, {})
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("eslang.facts.steps.MANY", many)  # ways through ORs before they are joined
+        for query in queries:
+            check_answers(facts, world, query, {})
     event(f"rules {len(world.rules)}")
 
 
