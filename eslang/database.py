@@ -18,6 +18,17 @@ if TYPE_CHECKING:
     from eslang.interpreter import Interpreter
 
 FUNCTION, QUOTE = (Symbol.intern(name, "COMMON-LISP") for name in ("FUNCTION", "QUOTE"))
+STEADY_NAMES = (
+    "< > <= >= = /= + - * / 1+ 1- MIN MAX ABS MOD REM EVENP ODDP ZEROP PLUSP MINUSP "
+    "EQ EQL EQUAL EQUALP NOT NULL ATOM CONSP LISTP SYMBOLP KEYWORDP STRINGP CHARACTERP "
+    "NUMBERP INTEGERP RATIONALP FLOATP REALP FIRST SECOND THIRD REST CAR CDR NTH LENGTH LIST CONS "
+    "STRING= STRING/= STRING< STRING> STRING-EQUAL CHAR= CHAR< CHAR>"
+)
+RESERVED_NAMES = "< > <= >= = /= EQ EQL EQUAL EQUALP FUNCALL"  # no relation takes them from the queries
+# Functions whose answer hangs on their arguments alone.
+STEADY = frozenset(Symbol.intern(name, "COMMON-LISP") for name in STEADY_NAMES.split())
+RESERVED = frozenset(Symbol.intern(name, "COMMON-LISP") for name in RESERVED_NAMES.split())
+STEADY_OF_TWO = frozenset(Symbol.intern(name, "COMMON-LISP") for name in ("MEMBER", "ASSOC"))
 
 
 def make_database(session: Interpreter) -> Facts:
@@ -36,6 +47,7 @@ def make_database(session: Interpreter) -> Facts:
             session.scheduler.safepoint()
 
     made = Facts(is_call, call_test)
+    made.reserved |= RESERVED
     made.audience, made.tell = hooks.listeners, tell
     made.pauses.give_way, made.pauses.look = session.scheduler.safepoint, look
     return made
@@ -43,7 +55,28 @@ def make_database(session: Interpreter) -> Facts:
 
 def call_test(symbol: Symbol, arguments: list[Value]) -> bool:
     """Whether the function SYMBOL says something else than NIL of ARGUMENTS."""
+    inquiry = running.session.dynamic.logical.inquiry
+    if inquiry is not None and not _is_steady(symbol, arguments):
+        inquiry.asked_lisp = True
     return guarded(lambda: _apply(symbol, arguments)) is not None
+
+
+def _is_steady(symbol: Symbol, arguments: list[Value]) -> bool:
+    """Whether a call of SYMBOL gives the same whenever it is made: facts alone can change what it says."""
+    if symbol in STEADY or (symbol in STEADY_OF_TWO and len(arguments) == 2):
+        return all(each.__class__ is not Written or _is_steady_argument(each) for each in arguments)
+    return False
+
+
+def _is_steady_argument(written: Written) -> bool:
+    form, cell = written.form, running.session.image.cell
+    if form.__class__ is not Cons:
+        return form.__class__ is not Symbol or is_variable(form) or not cell(form).special
+    if form.car is QUOTE or form.car is FUNCTION:
+        return form.car is QUOTE
+    if not (isinstance(form.car, Symbol) and hasattr(cell(form.car), "function")):
+        return True  # data
+    return _is_steady(form.car, [Written(each, written.bindings) for each in items(form.cdr)])
 
 
 def _apply(symbol: Symbol, arguments: Iterable[Value]) -> Value:

@@ -13,7 +13,7 @@ from eslang.base.diagnostics import EslError
 from eslang.base.failure import Failure
 from eslang.base.hints import TYPE_CHECKING
 from eslang.base.symbols import Symbol
-from eslang.constructs.esl.fact_text import OTHER, USER, Scanner, UserNames, Writer, read_one
+from eslang.constructs.esl.fact_text import OTHER, Scanner, UserNames, Writer, read_one
 from eslang.facts.journal import Journal
 from eslang.facts.query import Facts
 from eslang.facts.relations import Relation
@@ -33,7 +33,7 @@ class Durable(Journal):
         self.session = session
         self.file = StoreFile(path)
         self.closed = False
-        self._names = UserNames(session.image.packages[USER])
+        self._names = UserNames(session.image.packages)
         self._writer = Writer(self._names.name_of, f"kept in `{path}`")
         self._last = 0  # the number of the fact that came last
         self._added: dict[int, tuple[Symbol, Row]] = {}  # since the last transaction

@@ -196,6 +196,7 @@ class Guest:
         if crash is not None:
             raise crash
         if task.status is SUCCEEDED:
+            self.session.runs.settle()
             return to_python(task.value)
         failure = task.failure
         if failure is None or task.status is not FAILED:

@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from eslang.knowledge import Knowledge
     from eslang.outside import Outside
     from eslang.reader.reader import Reading
+    from eslang.runtime.locks import PropertyLocks
 
 DEEPEST = 400_000  # Python frames; what is deeper is a :stack-exhausted failure
 
@@ -95,6 +96,7 @@ class Interpreter:
         self.goals = Patterns()
         self.actions: set[Symbol] = set()  # of SCS: functions that end with an action
         self.resources: dict[Symbol, Resource] = {}
+        self.locks: PropertyLocks | None = None  # made when first wanted
         self.runs = Runs(self, shuffled=shuffle, choices=choices, is_open=outside)
         self.scheduler = self.runs.scheduler
         self.ticks = self.scheduler.ticks
@@ -122,9 +124,10 @@ class Interpreter:
             library.export(self.image, symbol)
 
     def compiler(self, name: str) -> Compiler:
-        """A compiler for one text; the first one brings the special forms along."""
+        """A compiler for one text; the first one brings the special forms and all of the library along."""
         from eslang.compile.toplevel import Compiler
 
+        self.texts.load_later()
         library.furnish_special_forms(self.image)
         return Compiler(self.image, self.support, name)
 
@@ -212,11 +215,11 @@ class Interpreter:
 
         post_signal(self, name, arguments)
 
-    def post(self, function: Callable[[], object]) -> None:
-        """Call FUNCTION in a task of its own, soon; from any thread."""
+    def post(self, function: Callable[..., object] | Symbol, *arguments: Any) -> None:
+        """Call FUNCTION, Python's or the Lisp function of a symbol, in a task of its own; from any thread."""
         from eslang.posts import post_call
 
-        post_call(self, function)
+        post_call(self, function, *arguments)
 
     def after(self, seconds: float, function: Callable[[], object]) -> None:
         """Call FUNCTION, which is not to wait, when SECONDS have passed on the clock; no run waits for it.

@@ -17,7 +17,7 @@ from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Iterator, 
 from eslang.base.resolve import resolve_in
 from eslang.base.symbols import Symbol, Value
 from eslang.constructs.queries import in_force
-from eslang.facts.goals import read_query
+from eslang.facts.goals import ANYTHING, read_query
 from eslang.facts.query import Facts
 from eslang.facts.store import Store
 from eslang.facts.unify import is_variable
@@ -110,6 +110,8 @@ class Knowledge:
         It is called when a change has been made, in the thread that made it, and is not to wait.
         What it raises is a failure of what made the change, after all others have heard of that.
         """
+        if not callable(subscriber):
+            raise TypeError(f"a subscriber is called with each change, and {subscriber!r} cannot be")
         subscription = Subscription(subscriber)
         self._change(subscription.begin, relation)
 
@@ -293,7 +295,8 @@ def bindings_of(wording: Wording, query: Value, given: dict[str, Any]) -> dict[S
     """The values of the variables of QUERY that are GIVEN by what Python calls them."""
     if not given:
         return {}
-    variables = {key_of(token): token for token in read_query(query)[0] if is_variable(token)}
+    tokens = [token for token in read_query(query)[0] if is_variable(token) and token.name != ANYTHING]
+    variables = {key_of(token): token for token in tokens}
     named = {key.replace("-", "_"): variable for key, variable in variables.items()} | variables
     unknown = [key for key in given if key not in named]
     if unknown:

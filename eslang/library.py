@@ -25,7 +25,7 @@ def furnish(session: Interpreter) -> None:
     for definition in DEFINITIONS:
         if definition.kind != "special form":
             furnish_definition(image, definition)
-    session.texts.load_library(prelude.stdlib_files())
+    session.texts.load_library(prelude.stdlib_files(), frozenset(prelude.stdlib_files(prelude.LATER)))
     image.cell(PACKAGE).value = image.packages["ESL-USER"]
     widget.install(session)
     spacecraft.install(session)

@@ -7,8 +7,10 @@ nothing is at work when it comes. A mistake is found at once, where it is made.
 from __future__ import annotations
 
 from eslang.base.border import to_lisp
+from eslang.base.calls import spread
 from eslang.base.failure import Failure, type_error, unbound_variable
 from eslang.base.hints import TYPE_CHECKING, Any, Callable
+from eslang.base.running import to_function
 from eslang.base.symbols import Symbol, Value
 from eslang.constructs.esl.events import signal_event
 from eslang.primitives import run_python
@@ -47,14 +49,22 @@ def find(session: Interpreter, text: str) -> Symbol | None:
     return symbol if found else None
 
 
-def post_call(session: Interpreter, function: Callable[[], object]) -> None:
-    """Call FUNCTION in a task of its own, which belongs to the run."""
+def post_call(session: Interpreter, function: Callable[..., object] | Symbol, *arguments: Any) -> None:
+    """Call FUNCTION, or the Lisp function of that name, in a task of its own, which belongs to the run."""
     if session.closed:
         raise Failure("interpreter-closed")
-    lives = session.runs.lives
+    lives, name = session.runs.lives, "posted"
+    if isinstance(function, Symbol):
+        name = function.name.lower()
+        values = [to_lisp(argument) for argument in arguments]
+
+    def body() -> Value:
+        if isinstance(function, Symbol):
+            return spread(to_function(function), values)
+        return run_python(function, list(arguments), {}, name)
 
     def begin() -> None:
-        task = lives.create("posted", lambda: run_python(function, [], {}, "posted"))
+        task = lives.create(name, body)
         task.is_root = True
         lives.start(task, "spawned")
 

@@ -13,9 +13,10 @@ from __future__ import annotations
 import os
 import sqlite3
 from binascii import crc32
+from weakref import WeakSet
 
 from eslang.base.failure import Failure, simple_error
-from eslang.base.hints import Any, Iterable, Iterator
+from eslang.base.hints import Iterable, Iterator
 
 APPLICATION = 0x45534C46  # "ESLF": how SQLite's header says whose file it is
 VERSION = 1
@@ -28,7 +29,7 @@ WORDS = {  # of SQLite's errors
     "SQLITE_IOERR": "the disk does not do what it is asked to",
 }
 Stored = tuple[int, str]  # the number of a fact, and its text
-LEFT: list[Any] = []  # connections that a process has got from its parent, and may not even close
+OPEN: WeakSet[StoreFile] = WeakSet()
 
 
 class StoreFile:
@@ -52,6 +53,7 @@ class StoreFile:
         except BaseException:
             self._connection.close()
             raise
+        OPEN.add(self)
 
     def _open(self) -> None:
         """Make sure that the file is ours, whole, and can be written; a new one is furnished."""
@@ -60,18 +62,19 @@ class StoreFile:
             do("PRAGMA locking_mode = EXCLUSIVE")
             do("PRAGMA page_size = 1024")  # of a new file: what a small transaction writes
             application, version = self._number("application_id"), self._number("user_version")
-            if application == version == 0 and not do("SELECT 1 FROM sqlite_schema").fetchall():
-                self._furnish()
-            elif application != APPLICATION:
+            new = application == version == 0 and not do("SELECT 1 FROM sqlite_schema").fetchall()
+            if not new and application != APPLICATION:
                 raise self.trouble("it is a database of another program")
-            elif version != VERSION:
+            if not new and version != VERSION:
                 raise self.trouble(
                     f"it has format {version}, and this version of eslang knows {VERSION} only"
                 )
-            do("PRAGMA synchronous = NORMAL")
-            do("PRAGMA wal_autocheckpoint = 4000")
             if do("PRAGMA journal_mode = WAL").fetchone()[0] != "wal":
                 raise self.trouble("SQLite cannot write it ahead")
+            do("PRAGMA synchronous = NORMAL")
+            do("PRAGMA wal_autocheckpoint = 4000")
+            if new:
+                self._furnish()
             if do("PRAGMA quick_check(1)").fetchone()[0] != "ok":
                 raise self.trouble("it is damaged")
             do("BEGIN IMMEDIATE")
@@ -126,12 +129,26 @@ class StoreFile:
         """Let go of the file."""
         if os.getpid() == self._process:
             self._connection.close()
-        else:
-            LEFT.append(self._connection)
+
+    def abandon(self) -> None:
+        """This process is a child of the one that has the file open: it is not even to close it."""
+        from ctypes import py_object, pythonapi
+
+        pythonapi.Py_IncRef(py_object(self._connection))  # SQLite would close it when nobody holds it
 
     def trouble(self, words: str) -> Failure:
         """The failure that the facts cannot be kept here, and why."""
         return simple_error(f"facts cannot be kept in `{self.path}`: {words}", condition="FILE-ERROR")
+
+
+def abandon_all() -> None:
+    """This process has just been made by fork."""
+    for file in OPEN:
+        file.abandon()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=abandon_all)
 
 
 def sum_of(number: int, text: str) -> int:

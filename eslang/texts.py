@@ -12,7 +12,7 @@ from types import FunctionType
 
 from eslang.base.decoding import decode, file_bytes
 from eslang.base.diagnostics import Diagnostic, EslError
-from eslang.base.hints import Any, Callable, Iterable
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable
 from eslang.base.image import PACKAGE
 from eslang.base.packages import Package
 from eslang.base.spans import Source
@@ -21,6 +21,9 @@ from eslang.base.text import String
 from eslang.compile import cache
 from eslang.lisp.loading import LOAD_PATHNAME
 from eslang.runtime.failures import run_apart
+
+if TYPE_CHECKING:
+    from eslang.later import Later
 
 Run = Callable[[FunctionType], Value]
 
@@ -31,6 +34,7 @@ class Texts:
     def __init__(self, session: Any) -> None:
         self.session = session
         self.circumstances = ""  # a digest of all that was loaded or evaluated before
+        self.later: Later | None = None  # what of the library is still to be loaded
 
     def note(self, text: str) -> None:
         """Remember that TEXT was evaluated: what is compiled later may depend on it."""
@@ -70,20 +74,50 @@ class Texts:
         finally:
             bindings.unbind(2)
 
-    def load_library(self, paths: list[str]) -> None:
-        """Load the library, all of it or none from the cache."""
+    def load_library(self, paths: list[str], later: frozenset[str]) -> None:
+        """Load the library, all of it or none from the cache; those of PATHS in LATER can wait then."""
+        from eslang.later import Later, Recorder
+
         stats = [(path, os.stat(path)) for path in paths]
         named = [f"{path} {stat.st_size} {stat.st_mtime_ns}" for path, stat in stats]
         key = self.circumstances = cache.digest(cache.fingerprint(), *named)
-        if self._run_kept(key, run_apart):
+        rest = cache.digest(key, "later")
+        entries = cache.fetch(key)
+        if entries is not None:
+            self._run_entries(entries[:-1], run_apart)
+            waiting = [path for path in paths if path in later]
+            self.later = Later(self.session, entries[-1].cells, lambda: self._load_rest(rest, waiting))
             return
-        entries = []
+        recorder = Recorder(self.session.image)
+        kept: dict[bool, list[cache.Kept | None]] = {False: [], True: []}
         for path in paths:
-            source = decode(file_bytes(path), f"<stdlib>/{os.path.basename(path)}")
-            compiler, _ = self._compile(source)
-            entries.append(cache.write_down(compiler))
-        if all(entry is not None for entry in entries):
-            cache.keep(key, [entry for entry in entries if entry is not None])
+            kept[path in later].append(self._compile_library(path))
+            recorder.pass_over(path in later)
+        if None not in kept[False] + kept[True]:
+            names = cache.Kept([], recorder.names, [], b"")
+            cache.keep(rest, [entry for entry in kept[True] if entry is not None])
+            cache.keep(key, [*[entry for entry in kept[False] if entry is not None], names])
+
+    def load_later(self) -> None:
+        """Load what of the library could wait, if that was not done yet."""
+        later, self.later = self.later, None
+        if later is not None:
+            try:
+                later.take()
+            except BaseException:
+                self.later = later  # the stack may be full
+                raise
+
+    def _load_rest(self, key: str, paths: list[str]) -> None:
+        """Load the library's texts in PATHS, which are kept under KEY, unless somebody took them away."""
+        if not self._run_kept(key, run_apart):
+            for path in paths:
+                self._compile_library(path)
+
+    def _compile_library(self, path: str) -> cache.Kept | None:
+        """Load a file of the library; what is to be kept of it."""
+        source = decode(file_bytes(path), f"<stdlib>/{os.path.basename(path)}")
+        return cache.write_down(self._compile(source)[0])
 
     def check(self, paths: Iterable[str]) -> list[Diagnostic]:
         """What can be known of a program, the files in order, without running it."""
@@ -120,8 +154,12 @@ class Texts:
     def _run_kept(self, key: str, run: Run) -> bool:
         """Run the top-level forms of the texts kept under KEY; false if there are none."""
         texts = cache.fetch(key)
-        for kept in texts or ():
+        self._run_entries(texts or (), run)
+        return texts is not None
+
+    def _run_entries(self, texts: Iterable[cache.Kept], run: Run) -> None:
+        """Run the top-level forms of texts that were kept."""
+        for kept in texts:
             code = cache.take_up(kept, self.session.image, self.session.support)
             for form in kept.codes:
                 run(code.load(form))
-        return texts is not None

@@ -14,7 +14,7 @@ from eslang.base.hints import TYPE_CHECKING, Any, Iterable, Sequence
 from eslang.base.image import Image
 from eslang.base.lists import Cons, from_items
 from eslang.base.resolve import Resolve, resolve_in
-from eslang.base.spans import Source, Span
+from eslang.base.spans import Source
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.text import String, Vector
 
@@ -23,17 +23,19 @@ if TYPE_CHECKING:
 
 PLAIN = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.:?*+/<>=!%&$")
 DIRECT = frozenset((int, float, Symbol, Keyword, type(None), String, Cons))  # they stay what they are
+DEEPEST = 5000  # lists inside one another; what is deeper may have no end
 NO_TERMS: tuple[Any, ...] = ()
 
 
 class Wording:
     """Makes Lisp's values of Python's; RESOLVE tells which symbol a name means."""
 
-    __slots__ = ("_known", "resolve")
+    __slots__ = ("_depth", "_known", "resolve")
 
     def __init__(self, resolve: Resolve) -> None:
         self.resolve = resolve
         self._known: dict[str, Value] = {}
+        self._depth = 0  # of lists inside one another
 
     def form(self, first: Any, terms: Sequence[Any] = NO_TERMS) -> Value:
         """A fact, pattern or query: a whole one, or what it begins with and its TERMS."""
@@ -67,10 +69,12 @@ class Wording:
 
     def listed(self, terms: Iterable[Any]) -> Value:
         """TERMS as a Lisp list."""
-        try:
-            return from_items([self.term(term) for term in terms])
-        except RecursionError:
-            raise Failure(STACK_EXHAUSTED) from None
+        self._depth += 1
+        if self._depth > DEEPEST:
+            raise Failure(STACK_EXHAUSTED)
+        made = from_items([self.term(term) for term in terms])
+        self._depth -= 1
+        return made
 
     def term(self, value: Any) -> Value:
         """What VALUE is for Lisp."""
@@ -85,7 +89,7 @@ class Wording:
         if kind is Text:
             return String(str.__str__(value))
         if isinstance(value, list | tuple):
-            return from_items([self.term(term) for term in value])
+            return self.listed(value)
         return self._atom(str.__str__(value)) if isinstance(value, str) else to_lisp(plain_number(value))
 
     def _atom(self, text: str) -> Value:
@@ -99,12 +103,12 @@ class Wording:
                 return self._read(text)  # which tells the place, too
         text = text.strip()
         try:
-            [found] = self._readings(text) if not text.startswith("#:") else ()  # the same as nothing else
-        except (EslError, ValueError):
-            found = None
-        if found is None or found.form.__class__ in (Cons, Vector) or not covers(found.span, text):
+            readings = self._readings(text)
+        except EslError:
+            readings = []
+        if len(readings) != 1 or not is_atom(readings[0], text):
             raise simple_error(f"{text!r} is no name; for text, write Text({text!r})")
-        return found.form
+        return readings[0].form
 
     def _read(self, text: str) -> Value:
         """The one form in TEXT. Raises EslError if it cannot be read."""
@@ -119,10 +123,11 @@ class Wording:
         return list(read_forms(Source("<fact>", text), self.resolve))
 
 
-def covers(span: Span, text: str) -> bool:
-    """Whether SPAN is all of TEXT: no comment stands beside it."""
+def is_atom(reading: Reading, text: str) -> bool:
+    """Whether READING is an atom that can be named again, and all of TEXT: no comment stands beside it."""
     end = text.count("\n") + 1, len(text) - text.rfind("\n")
-    return span[1:] == (1, 1, *end)
+    is_whole = reading.span[1:] == (1, 1, *end)
+    return is_whole and reading.form.__class__ not in (Cons, Vector) and not text.startswith("#:")
 
 
 def resolve_unmade(image: Image) -> Resolve:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import Any
 
 from hypothesis import strategies as st
@@ -14,6 +15,7 @@ from eslang.facts.nested import Written
 from eslang.facts.nested import filled as written_out
 from eslang.facts.query import Facts
 from eslang.facts.rules import UNSTRATIFIED
+from eslang.facts.watching import Change, Reads
 from naive.queries import TESTS, Bindings, Goal, Rule, Term, Text, key, strata, variables
 
 CONNECTIVES = ("and", "or", "not")
@@ -107,6 +109,27 @@ def taken_or_not(facts: Facts, rule: Rule) -> None:
         facts.define_rule(lisp(rule.head), lisp(rule.body))
     except Failure as failure:
         assert failure.cause is UNSTRATIFIED
+
+
+def looked_up(reads: Reads) -> set[Any]:
+    """What READS holds, in words that can be compared."""
+    return {
+        (relation.name, relation.arity, positions, repr(each))
+        for (relation, positions), keys in reads.keys.items()
+        for each in keys
+    }
+
+
+def was_read(told: Change, read: set[Any]) -> bool:
+    """Whether a look-up that is in READ finds what TOLD tells of."""
+    arity = len(told.row)
+    for size in range(arity + 1):
+        for positions in combinations(range(arity), size):
+            parts = tuple(told.row[place] for place in positions)
+            looked = None if not positions and arity else parts[0] if size == 1 and arity > 1 else parts
+            if (told.name, arity, positions, repr(looked)) in read:
+                return True
+    return False
 
 
 # --- what is generated ---------------------------------------------------------------

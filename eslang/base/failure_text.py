@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from eslang.base.failure import Failure
 from eslang.base.hints import Any, Callable
+from eslang.base.lists import Cons, items
 from eslang.base.printer import prin1, princ
 
 Arguments = tuple[Any, ...]
@@ -60,6 +61,28 @@ def _python_error(arguments: Arguments) -> str:
     return ": ".join(map(princ, arguments[:2]))
 
 
+def _unbound_logic_variable(arguments: Arguments) -> str:
+    return f"The logic variable {prin1(arguments[0])} has no value{_within(arguments)}."
+
+
+def _unstratified_rules(arguments: Arguments) -> str:
+    names = _names(arguments[0])
+    return f"The relation {names[0]} would rest on its own absence: {', '.join(names)}."
+
+
+def _unbounded_rules(arguments: Arguments) -> str:
+    names = ", ".join(_names(arguments[0]))
+    return f"The rules of {names} might make ever larger lists without end{_within(arguments)}."
+
+
+def _names(value: Any) -> list[str]:
+    return [prin1(name) for name in items(value)] if value.__class__ is Cons else [prin1(value)]
+
+
+def _within(arguments: Arguments) -> str:
+    return f" in {prin1(arguments[1])}" if len(arguments) > 1 else ""
+
+
 _MESSAGES: dict[str, Callable[[Arguments], str]] = {
     "ERROR": _words,
     "CONTROL-ERROR": _words,
@@ -70,4 +93,7 @@ _MESSAGES: dict[str, Callable[[Arguments], str]] = {
     "WRONG-NUMBER-OF-ARGUMENTS": _wrong_number,
     "INDEX-OUT-OF-RANGE": _index_out_of_range,
     "PYTHON-ERROR": _python_error,
+    "UNBOUND-LOGIC-VARIABLE": _unbound_logic_variable,
+    "UNSTRATIFIED-RULES": _unstratified_rules,
+    "UNBOUNDED-RULES": _unbounded_rules,
 }

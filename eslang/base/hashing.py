@@ -22,8 +22,8 @@ STRUCTURED: dict[type, Parts] = {}  # class -> what of its instances EQUALP comp
 _PAIR, _ARRAY, _TABLE, _PARTS = ("pair",), ("array",), ("table",), ("parts",)
 
 
-class _Identity:
-    """The key of a foreign object: itself and nothing else."""
+class Identity:
+    """The key of an object that is none of Lisp's: it is the same as itself only."""
 
     __slots__ = ("value",)
 
@@ -34,7 +34,7 @@ class _Identity:
         return id(self.value)
 
     def __eq__(self, other: object) -> bool:
-        return other.__class__ is _Identity and other.value is self.value
+        return other.__class__ is Identity and other.value is self.value
 
 
 def eql_key(value: Value) -> Any:
@@ -44,7 +44,7 @@ def eql_key(value: Value) -> Any:
         return (float, value.hex())
     if kind in PLAIN or kind is FunctionType or isinstance(value, Datum) or kind.__name__ == "Ratio":
         return value
-    return _Identity(value)
+    return Identity(value)
 
 
 def equal_key(value: Value) -> Any:

@@ -61,6 +61,10 @@ class Judge:
         """Whether a form that is a call or something else is a call, with OPERATOR."""
         return hasattr(self.image.cell(operator), "function")
 
+    def told(self, diagnostic: Diagnostic, use: Use) -> Diagnostic | None:
+        """How DIAGNOSTIC of USE is told, by who knows more of the program; None: not at all."""
+        return diagnostic
+
     def verdicts(self) -> Iterable[Diagnostic]:
         """What else is wrong with the program."""
         return ()
@@ -115,6 +119,7 @@ class Checker:
         judge = self.make_judge(self.image, self.uses, self.is_whole)
         for use in self.uses:
             diagnostic = self.judge(use) if all(map(judge.is_called, use.supposed)) else None
+            diagnostic = judge.told(diagnostic, use) if diagnostic is not None else None
             if diagnostic is not None:
                 self.found.append(diagnostic)
         self.found += judge.verdicts()

@@ -4,7 +4,8 @@ In this order: AND, OR, NOT of conditions; a query, if the operator names a
 relation; a call, if it names a function; else a query (language reference
 §3). Parts of an AND that speak of logic variables are one query: a call
 among them is a test, in which the variables have their values. A condition
-under a quote or a backquote is the one that is written there.
+under a quote or a backquote is the one that is written there; #?x is the one
+that it is bound to. What cannot be a call, as (at robot (3 4)), is a query.
 """
 
 from __future__ import annotations
@@ -12,17 +13,23 @@ from __future__ import annotations
 from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.running import running
-from eslang.base.symbols import Symbol, Value, truth
+from eslang.base.symbols import Keyword, Symbol, Value, truth
 from eslang.compile.registry import CL, ESL, function
-from eslang.constructs.queries import LOGICAL_BINDING, mentions_binding
+from eslang.constructs.queries import LOGICAL_BINDING, in_force, mentions_binding
 from eslang.facts.unify import is_variable
 
-AND, OR, NOT, IF, QUOTE, LIST, PROGN, LAMBDA, FUNCALL, QUASIQUOTE = (
+AND, OR, NOT, IF, QUOTE, LIST, PROGN, LAMBDA, FUNCTION, FUNCALL, QUASIQUOTE, UNQUOTE, LET = (
     Symbol.intern(name, CL)
-    for name in ("AND", "OR", "NOT", "IF", "QUOTE", "LIST", "PROGN", "LAMBDA", "FUNCALL", "QUASIQUOTE")
+    for name in (
+        *("AND", "OR", "NOT", "IF", "QUOTE", "LIST", "PROGN", "LAMBDA", "FUNCTION", "FUNCALL"),
+        *("QUASIQUOTE", "UNQUOTE", "LET"),
+    )
 )
 WHERE_FUNCTION = Symbol.intern("%WHERE-FUNCTION", CL)
-CALLS, HOLDS, ASKS_LISP = (Symbol.intern(name, ESL) for name in ("%CALLS-P", "%HOLDS-P", "%ASKS-LISP"))
+CALLS, HOLDS, ASKS_LISP, IN_FORCE, COMPUTED = (
+    Symbol.intern(name, ESL)
+    for name in ("%CALLS-P", "%HOLDS-P", "%ASKS-LISP", "%IN-FORCE", "%COMPUTED-CONDITION")
+)
 CONNECTIVES = (AND, OR, NOT)
 
 
@@ -48,24 +55,30 @@ def test_form(condition: Value, environment: Any) -> Value:
     call = lisp_list(PROGN, lisp_list(ASKS_LISP), condition)
     if is_operator(operator, environment):
         return call
-    return if_called(operator, call, lisp_list(HOLDS, term_form(condition)))
+    query = lisp_list(HOLDS, term_form(condition))
+    return if_called(operator, call, query) if may_call(condition, environment) else query
 
 
 def query_form(condition: Value, environment: Any) -> Value:
     """A form that gives CONDITION as a query: calls are tests that know the variables around them."""
-    if not is_compound(condition) or is_written(condition):
+    if not is_compound(condition):
         return test_query_form(condition)
+    if is_written(condition):
+        return condition
     operator = condition.car
     if operator in CONNECTIVES:
         parts = [query_form(part, environment) for part in items(condition.cdr)]
         if all(part.__class__ is Cons and part.car is QUOTE for part in parts):
-            return lisp_list(QUOTE, condition)
+            return lisp_list(QUOTE, Cons(operator, from_items([part.cdr.car for part in parts])))
         return Cons(LIST, Cons(lisp_list(QUOTE, operator), from_items(parts)))
     if is_operator(operator, environment):
         return test_query_form(condition)
     if all(map(is_constant, items(condition.cdr))):
         return lisp_list(QUOTE, condition)
-    return if_called(operator, test_query_form(condition), term_form(condition))
+    query = term_form(condition)
+    if not may_call(condition, environment):
+        return query
+    return if_called(operator, test_query_form(condition), query)
 
 
 def test_query_form(form: Value) -> Value:
@@ -81,15 +94,39 @@ def instance_form(condition: Value, environment: Any) -> Value:
     if not is_compound(condition):
         return lisp_list(QUOTE, condition)
     if is_written(condition):
-        return condition
+        return lisp_list(IN_FORCE, condition)
     operator = lisp_list(QUOTE, condition.car)
     if condition.car in CONNECTIVES:
         parts = [instance_form(part, environment) for part in items(condition.cdr)]
         return Cons(LIST, Cons(operator, from_items(parts)))
-    if is_operator(condition.car, environment) or has_variables(condition):
+    is_call = not is_operator(condition.car, environment) and may_call(condition, environment)
+    if not is_call or has_variables(condition):
         return term_form(condition)
     computed = Cons(LIST, Cons(operator, condition.cdr))
     return if_called(condition.car, computed, term_form(condition))
+
+
+def computed_once(condition: Value) -> tuple[Value, Value]:
+    """CONDITION, with variables in place of what stands under backquotes in it; and how LET binds these."""
+    bindings: list[Value] = []
+
+    def computed(part: Value) -> Value:
+        if not is_compound(part):
+            return part
+        if part.car is QUASIQUOTE:
+            name = Symbol.uninterned("CONDITION")
+            bindings.append(lisp_list(name, lisp_list(COMPUTED, part)))
+            return lisp_list(QUASIQUOTE, lisp_list(UNQUOTE, name))
+        if part.car in CONNECTIVES:
+            return Cons(part.car, from_items([computed(each) for each in items(part.cdr)]))
+        return part
+
+    return computed(condition), from_items(bindings)
+
+
+def with_variables(bindings: Value, form: Value) -> Value:
+    """FORM, inside a LET with these BINDINGS if there are any."""
+    return form if bindings is None else lisp_list(LET, bindings, form)
 
 
 def is_compound(condition: Value) -> bool:
@@ -98,8 +135,29 @@ def is_compound(condition: Value) -> bool:
 
 
 def is_written(condition: Cons) -> bool:
-    """Whether CONDITION is a form for a condition: one under a quote or a backquote."""
-    return condition.car is QUOTE or condition.car is QUASIQUOTE
+    """Whether CONDITION is a form for a condition: one under a quote or a backquote, or #?x."""
+    return condition.car is QUOTE or condition.car is QUASIQUOTE or condition.car is LOGICAL_BINDING
+
+
+def may_call(condition: Cons, environment: Any) -> bool:
+    """Whether CONDITION may be a call: its operator is a function, or all lists in it look like calls."""
+    if calls_p(condition.car) is not None:
+        return True
+    pending = [condition]
+    while pending:
+        form = pending.pop()
+        if not isinstance(form.car, Symbol) or isinstance(form.car, Keyword) or is_variable(form.car):
+            return False
+        if form.car is FUNCTION or is_written(form) or is_operator(form.car, environment):
+            continue
+        rest = form.cdr
+        while rest.__class__ is Cons:
+            if rest.car.__class__ is Cons:
+                pending.append(rest.car)
+            rest = rest.cdr
+        if rest is not None:
+            return False
+    return True
 
 
 def is_operator(symbol: Symbol, environment: Any) -> bool:
@@ -114,7 +172,9 @@ def is_operator(symbol: Symbol, environment: Any) -> bool:
 
 def is_constant(term: Value) -> bool:
     """Whether TERM means the same in a query and in a call."""
-    return (term.__class__ is not Cons and term.__class__ is not Symbol) or is_variable(term)
+    if term.__class__ is Cons:
+        return term.car is QUOTE and not has_variables(term.cdr)
+    return term.__class__ is not Symbol or is_variable(term)
 
 
 def if_called(operator: Symbol, call: Value, query: Value) -> Value:
@@ -172,10 +232,22 @@ def asks_lisp() -> Value:
     return None
 
 
+@function("(%in-force condition)", ESL)
+def condition_in_force(condition: Value) -> Value:
+    """Give CONDITION with the values of the #?x in it."""
+    return in_force(condition)
+
+
+@function("(%computed-condition condition)", ESL)
+def computed_condition(condition: Value) -> Value:
+    """Give CONDITION, which stands under a backquote: `esl check` reads it here."""
+    return condition
+
+
 @function("(%holds-p query)", ESL)
 def holds_p(query: Value) -> Value:
     """Tell whether QUERY holds in the database; whoever watches hears what that rests on."""
-    session = running.session
+    session, query = running.session, in_force(query)
     inquiry = session.dynamic.logical.inquiry
     if inquiry is None:
         return truth(session.database.first(query) is not None)

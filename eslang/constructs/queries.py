@@ -72,12 +72,12 @@ def with_query_bindings(form: Cons, environment: Any) -> Value:
     """
     query, body = form.cdr.car, form.cdr.cdr
     inherit = None
-    if body is not None and isinstance(body.car, Keyword) and body.cdr is not None:
-        if body.car is not INHERIT:
-            wrong = f"with-query-bindings has no option `{shown(body.car)}`"
-            hint = "write `:inherit-bindings`, or nothing"
-            refuse(environment, "malformed-form", wrong, body, hint=hint, within="with-query-bindings")
+    if body is not None and body.car is INHERIT:
         inherit, body = INHERIT, body.cdr
+    elif body is not None and isinstance(body.car, Keyword) and body.cdr is not None:
+        wrong = f"with-query-bindings has no option `{shown(body.car)}`"
+        hint = "write `:inherit-bindings`, or nothing"
+        refuse(environment, "malformed-form", wrong, body, hint=hint, within="with-query-bindings")
     return lisp_list(WITH_BINDINGS, query, inherit, from_items([LAMBDA, None], body))
 
 

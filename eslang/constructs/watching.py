@@ -22,23 +22,29 @@ if TYPE_CHECKING:
 class Inquiry:
     """What one asking of a condition read: facts, which are watched from then on, or Lisp, too."""
 
-    __slots__ = ("asked_lisp", "bindings", "is_stale", "relations", "stir", "watches")
+    __slots__ = ("asked_lisp", "bindings", "is_overtaken", "is_stale", "relations", "stir", "watches")
 
     def __init__(self, stir: Callable[[Any], object]) -> None:
         self.asked_lisp = False
         self.is_stale = False  # what it read has changed meanwhile
+        self.is_overtaken = False  # facts have changed while it was answered
         self.bindings: dict[Symbol, Value] = {}  # under which the condition held
         self.relations: dict[Symbol, None] = {}
         self.watches: list[Watch] = []
         self.stir = stir
 
+    @property
+    def is_of_one_moment(self) -> bool:
+        """Whether all facts that count were asked for at once; where Lisp is asked, too, there is no more."""
+        return self.asked_lisp or len(self.watches) < 2
+
     def note(self, solution: dict[Symbol, Value] | None, reads: Reads) -> None:
         """A query had this SOLUTION, for which it read that."""
         from eslang.facts.watching import watch
 
-        self.asked_lisp = self.asked_lisp or reads.asked_lisp
         self.bindings.update(solution or {})
         self.relations.update(dict.fromkeys(name for name, _ in reads.relations()))
+        self.is_overtaken = self.is_overtaken or reads.overtaken
         self.watches.append(watch(reads, self.stir))
 
     def end(self) -> None:
@@ -83,8 +89,11 @@ class Look:
                 self.inquiry.end()
                 self.inquiry = Inquiry(self.stir)
                 dynamic.logical = outer._replace(inquiry=self.inquiry)
+                step = self.scheduler.steps
                 value = self.test()
-                if value is not None or not self.inquiry.is_stale:
+                inquiry = self.inquiry
+                is_late = inquiry.is_overtaken and self.scheduler.steps != step  # it has waited
+                if not (inquiry.is_stale or is_late) or (value is not None and inquiry.is_of_one_moment):
                     break
         finally:
             dynamic.logical = outer

@@ -30,7 +30,7 @@ class Command(NamedTuple):
 class Sent:
     """A command that was sent."""
 
-    __slots__ = ("arrived", "command", "device", "hardware", "latest", "pauses", "trouble")
+    __slots__ = ("command", "device", "hardware", "pauses", "trouble")
 
     def __init__(self, hardware: Hardware, device: Device, command: Command) -> None:
         self.hardware = hardware
@@ -38,16 +38,17 @@ class Sent:
         self.command = command
         self.trouble: Trouble = None
         latency = hardware.transmit(device) + device.wiring.command_latency
-        work = device.wiring.transient_time if command.lasts else 0.0
-        self.pauses = [seconds for seconds in (hardware.slowest_sensor(), work) if seconds] + [latency]
-        self.latest = hardware.now() + sum(self.pauses)  # when it has ended, or failed
+        self.pauses = [latency]  # of who waits for the reply; the next is the last
+        if command.lasts:
+            self.pauses.insert(0, device.wiring.transient_time)
         hardware.after(latency, self.arrive)
 
     def arrive(self) -> None:
-        """It takes effect."""
+        """It takes effect; sensors will tell what that is."""
         self.trouble = self.command.act(self.hardware, self.device)
-        self.hardware.settle()
+        changed = self.hardware.settle()
         self.hardware.observe(self.device)
+        self.pauses.insert(0, max([each.wiring.sensor_latency for each in (self.device, *changed)]))
 
     def next_pause(self) -> float | None:
         """How long to wait now, before asking again; None when the reply is there."""

@@ -65,13 +65,16 @@ class Hardware:
             if any(device.told[relation] is not value for relation, value in seen):
                 self.observe(device)
 
+    def is_device(self, name: Any) -> bool:
+        """True if NAME is that of a device."""
+        self.refresh()
+        return isinstance(name, Symbol) and name in self.devices
+
     def find(self, name: Any) -> Device:
         """The device of that name. Raises Failure(:unknown-device) with the nearest name."""
-        self.refresh()
-        device = self.devices.get(name) if isinstance(name, Symbol) else None
-        if device is None:
+        if not self.is_device(name):
             raise Failure("unknown-device", name, nearest_of(name, self.devices))
-        return device
+        return self.devices[name]
 
     # --- commands ----------------------------------------------------------------
 
@@ -95,8 +98,9 @@ class Hardware:
     def change_health(self, name: Any, health: Any) -> None:
         """Let the device of that NAME be broken as HEALTH says, or well."""
         device = self.find(name)
-        if health not in HEALTHS:
-            raise Failure("unknown-health", health, nearest_of(health, HEALTHS))
+        known = HEALTHS if device.is_bus else HEALTHS[:-1]  # only a bus trips
+        if health not in known:
+            raise Failure("unknown-health", health, nearest_of(health, known))
         if health is STUCK:
             device.is_stuck = True
         elif health is not TRIPPED:
@@ -106,16 +110,14 @@ class Hardware:
         self.settle(device if health is TRIPPED else None)
         self.observe(device)
 
-    def settle(self, tripping: Device | None = None) -> None:
-        """Let power go where it can, after the bus TRIPPING has tripped; sensors see what that changes."""
-        for device in settle(self.devices.values(), self.now(), tripping):
+    def settle(self, tripping: Device | None = None) -> list[Device]:
+        """Let power go where it can, after the bus TRIPPING has tripped; what sensors see change by that."""
+        changed = settle(self.devices.values(), self.now(), tripping)
+        for device in changed:
             self.observe(device)
+        return changed
 
     # --- what is seen --------------------------------------------------------------
-
-    def slowest_sensor(self) -> float:
-        """How long it takes until every sensor has spoken."""
-        return max([device.wiring.sensor_latency for device in self.devices.values()], default=0.0)
 
     def observe(self, device: Device) -> None:
         """Let the sensors of DEVICE speak of what they see now."""

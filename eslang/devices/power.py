@@ -29,7 +29,7 @@ def settle(devices: Iterable[Device], now: float, tripping: Device | None = None
 
 def distribute(devices: list[Device], now: float) -> None:
     """Find out who has power, and from where; who gets it draws more for a moment."""
-    had = [device for device in devices if device.has_power]
+    had = {device for device in devices if device.has_power}
     for device in devices:
         device.has_power, device.source = False, None
     changed = True

@@ -57,7 +57,7 @@ def read_scenario(agent: Interpreter, path: str) -> Scenario:
 def scenario_of(agent: Interpreter, source: Source) -> Scenario:
     """The scenario that a text is. Raises EslError."""
     with agent.at_work():
-        known = names_in(agent.facts) | names_of(agent.value("esl::*spacecraft*"))
+        known = names_in(agent.facts) | names_of(agent.call("esl::%spacecraft-facts"))
         forms = [
             (Page(agent, reading.spans, reading.span, known), reading.form)
             for reading in agent.readings(source)
@@ -150,4 +150,4 @@ def drawn(doings: list[Doing], chance: Random) -> list[Call]:
 
 def poster(agent: Interpreter, call: Call) -> Callable[[], None]:
     """What lets a task make CALL."""
-    return lambda: agent.post(lambda: agent.call(call.function, *call.arguments))
+    return lambda: agent.post(call.function, *call.arguments)

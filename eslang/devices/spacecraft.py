@@ -35,6 +35,10 @@ class Spacecraft:
         """Send COMMAND to DEVICE, and do not wait."""
         return self.hardware.send(device, command)
 
+    def is_device(self, name: Any) -> bool:
+        """Tell whether NAME is that of a device."""
+        return self.hardware.is_device(name)
+
     def device_power_state(self, device: Any) -> Any:
         """Tell whether DEVICE has power, as far as its sensor has told.
 
@@ -114,6 +118,7 @@ def install(agent: Interpreter) -> Spacecraft:
     agent.primitive(signature="(esl::%send-command device command)")(craft.send_command)
     agent.primitive(signature="(esl::%next-pause sent)", outside=False)(next_pause)
     agent.primitive(signature="(esl::%reply sent)", outside=False)(reply)
+    agent.primitive(signature="(esl::%device-p name)", outside=False)(craft.is_device)
     agent.primitive(signature="(esl::device-power-state device)", outside=False)(craft.device_power_state)
     agent.primitive(signature="(esl::device-health-state device)", outside=False)(craft.device_health_state)
     agent.primitive(signature="(esl::break-device device health)", outside=False)(craft.break_device)

@@ -8,9 +8,10 @@ from eslang.facts.functions import Question
 from eslang.facts.goals import Constants, form_of
 from eslang.facts.procs import Proc, reached_from
 from eslang.facts.relations import Positions, Relation
-from eslang.facts.steps import Absent, Look, Step, Steps, Test
+from eslang.facts.steps import Absent, Branch, Join, Look, Present, Steps, Test
 
-CHECK, LOOK_UP, SCAN, RULES, TEST, NOT, OR = "check", "look-up", "scan", "rules", "test", "not", "or"
+CHECK, LOOK_UP, SCAN, TEST, NOT, OR = "check", "look-up", "scan", "test", "not", "or"
+RULES, OTHER_RULES = "rules", "other rules"  # those that are not transitive
 PLAIN, WALKED, TABLED = "plain", "walked", "tabled"
 
 
@@ -30,6 +31,7 @@ class ExplainedRules(NamedTuple):
     name: Symbol
     arity: int
     positions: Positions
+    is_direct: bool  # these are the rules that are not transitive
     kind: str  # plain: they do not need themselves; walked: only as their tail; tabled
     rules: tuple[tuple[Value, tuple[Explained, ...]], ...]  # the head and the steps of each
 
@@ -63,19 +65,31 @@ def _rules(proc: Proc, constants: Constants, relations: dict[Relation, None]) ->
     rules = tuple(
         (form_of(clause.head, constants), _all(clause.steps, constants, relations)) for clause in proc.clauses
     )
-    return ExplainedRules(proc.relation.name, proc.relation.arity, proc.positions, kind, rules)
+    relation = proc.relation
+    return ExplainedRules(relation.name, relation.arity, proc.positions, proc.is_direct, kind, rules)
 
 
 def _all(steps: Steps, constants: Constants, relations: dict[Relation, None]) -> tuple[Explained, ...]:
-    return tuple(_one(step, constants, relations) for step in steps)
+    explained: list[Explained] = []
+    for step in steps:
+        if isinstance(step, Join):
+            continue
+        explained.append(_one(step, constants, relations))
+        if isinstance(step, Branch) and step.rests:
+            ways = tuple(_all(rest.steps, constants, relations) for rest in step.rests)
+            explained += ways[0] if len(ways) == 1 else [explained[-1]._replace(inner=ways)]
+    return tuple(explained)
 
 
-def _one(step: Step, constants: Constants, relations: dict[Relation, None]) -> Explained:
+def _one(
+    step: Look | Test | Absent | Present | Branch, constants: Constants, relations: dict[Relation, None]
+) -> Explained:
     if isinstance(step, Look):
         relation = step.relation
         relations[relation] = None
         whole = len(step.positions) == relation.arity
-        kind = RULES if step.proc else CHECK if whole else LOOK_UP if step.positions else SCAN
+        rules = OTHER_RULES if step.atom.is_direct else RULES
+        kind = rules if step.proc else CHECK if whole else LOOK_UP if step.positions else SCAN
         return Explained(kind, form_of(step.atom, constants), step.positions, len(relation.rows), ())
     if isinstance(step, Test):
         return Explained(TEST, form_of(step.atom, constants), (), 0, ())

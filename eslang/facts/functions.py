@@ -24,10 +24,11 @@ from eslang.facts.source import (
     Source,
     tuple_of,
 )
-from eslang.facts.steps import Look, Steps
+from eslang.facts.steps import Steps
 from eslang.facts.tables import Tables
 from eslang.facts.terms import DIRECT, value_of
 from eslang.facts.views import Accesses, Pace, View
+from eslang.facts.walks import Stride, strides
 
 LOOP = "for row in rows if rows.__class__ is tuple else paced(rows):"
 SHARED = "EMPTY, DIRECT, value_of, Tables, Cons, new"  # by all queries
@@ -56,8 +57,8 @@ class Compiled(NamedTuple):
 def compile_query(question: Question, kind: str) -> Compiled:
     """The function that answers QUESTION: with all answers, the first, or one at a time."""
     source = Source()
-    main = _main(source, question, kind)
     procs = reached_from(question.steps)
+    main = _main(source, question, kind, any(map(_is_tabled, procs)))
     for proc in procs:
         _proc(source, proc)
     text = _factory(source, question, procs, main)
@@ -104,7 +105,7 @@ def _is_tabled(proc: Proc) -> bool:
     return bool(proc.circle) and not proc.is_linear()
 
 
-def _main(source: Source, question: Question, kind: str) -> str:
+def _main(source: Source, question: Question, kind: str, is_tabling: bool) -> str:
     """The query's own function; its name."""
     way = WAYS[kind]
     constants = tuple(f"c{number}" for number in range(question.places))
@@ -123,8 +124,10 @@ def _main(source: Source, question: Question, kind: str) -> str:
     body.lines += [*way.begin, *(("seen = set()",) if is_sifted else ())]
     body.emit(question.steps, dict(question.given), 0)
     lines = [*body.lines, *way.end]
-    if kind != LAZY:
-        lines = ["try:", *_inner(lines), "finally:", "    if left:", "        end(main)"]
+    ends = ["if left:", "    end(view)"] if kind != LAZY else []
+    ends += ["tables.clear()"] if is_tabling else []  # no garbage in circles
+    if ends:
+        lines = ["try:", *_inner(lines), "finally:", *_inner(ends)]
     source.add(f"def main({', '.join(constants)}):", lines)
     return "main"
 
@@ -215,19 +218,20 @@ def _linear(source: Source, proc: Proc) -> None:
     inner = [f"{tuple_of(_keys(proc))} = key"] if proc.positions else []
     inner += _stored(source, proc, [f"row = {rooted}", *keep])
     base = Sink(lambda _: [], names, FOLLOW, GENERATES)
-    for clause in proc.clauses:
-        is_tail = proc.is_tail(clause)
-        last = clause.steps[-1] if is_tail else None
+    for stride in strides(proc):
 
-        def save(body: Body, scope: Scope, clause: Clause = clause, last: Any = last) -> list[str]:
-            if isinstance(last, Look):
-                keys = [body.expression(last.atom.terms[place], scope) for place in last.positions]
-                ask = ["    asked[key] = None", "    agenda.append(key)"]
-                return [f"key = {tuple_of(keys)}", "if key not in asked:", *ask]
-            return [f"row = {_row(proc, clause, body, scope, 'b')}", *keep]
+        def save(body: Body, scope: Scope, stride: Stride = stride) -> list[str]:
+            lines = []
+            if stride.answer is not None:
+                told = stride.clause._replace(head=stride.answer)
+                lines += [f"row = {_row(proc, told, body, scope, 'b')}", *keep]
+            if stride.onward is not None:
+                asked = [stride.onward.atom.terms[place] for place in stride.onward.positions]
+                lines += [f"key = {tuple_of([body.expression(term, scope) for term in asked])}"]
+                lines += ["if key not in asked:", "    asked[key] = None", "    agenda.append(key)"]
+            return lines
 
-        shortened = clause._replace(steps=clause.steps[:-1]) if is_tail else clause
-        inner += _clause(source, proc, shortened, base, save)
+        inner += _clause(source, proc, stride.clause, base, save)
     lines = [f"root = {tuple_of(roots)}", f"have = memo.get(({proc.number}, root))"]
     lines += ["if have is not None:", "    yield from have", "    return"]
     lines += ["have = {}", "asked = {root: None}", "agenda = [root]", "for key in paced(agenda):"]

@@ -7,7 +7,7 @@ once. From the tokens come the goals, with numbered places for the constants.
 
 from __future__ import annotations
 
-from eslang.base.failure import Failure, simple_error, type_error
+from eslang.base.failure import STACK_EXHAUSTED, Failure, simple_error, type_error
 from eslang.base.hints import Any, NamedTuple
 from eslang.base.lists import Cons, items
 from eslang.base.symbols import Keyword, Symbol, Value
@@ -16,8 +16,9 @@ from eslang.facts.unify import is_variable
 
 CL = "COMMON-LISP"
 AND, OR, NOT = (Symbol.intern(name, CL) for name in ("AND", "OR", "NOT"))
+FACT, RELATION = (Symbol.intern(name, "ESL") for name in ("FACT", "RELATION"))  # types, for messages
 UNBOUND = Keyword("UNBOUND-LOGIC-VARIABLE")
-FEW = range(200)  # terms; longer queries are rare, and some have no end
+DEEPEST = 500  # goals and terms with variables inside one another; what is made of them uses the C stack
 CONNECTIVES = frozenset((AND, OR, NOT))
 ANYTHING = "?_"
 
@@ -85,71 +86,42 @@ class Never(NamedTuple):
 Goal = Atom | Both | Either | Never
 
 
-def quick_tokens(query: Value, constants: Constants) -> Tokens | None:
-    """What read_query says of plain patterns, and quickly; None or tokens that nobody knows for all else.
-
-    Most queries say something of symbols, integers and variables. Nothing is
-    checked here: queries that are wrong have no plan that these tokens find.
-    """
-    try:
-        tokens = [query.car]
-        rest = query.cdr
-        for _ in FEW:
-            if rest is None:
-                return tuple(tokens)
-            term = rest.car
-            kind = term.__class__
-            if kind is Symbol and "?" <= term.name < "@":
-                tokens.append(term)
-            elif kind in DIRECT:
-                tokens.append(CONSTANT)
-                constants.append(term)
-            else:
-                inner = quick_tokens(term, constants) if tokens[0] in CONNECTIVES else None
-                if inner is None:
-                    return None
-                tokens += inner
-                tokens.append(CLOSE)
-            rest = rest.cdr
-    except AttributeError:  # no list
-        pass
-    return None
-
-
 def read_query(query: Value, given: Given = NOTHING_GIVEN) -> tuple[Tokens, Constants]:
     """The tokens of QUERY and its constants; variables that are GIVEN count as constants."""
     tokens: list[Any] = []
     constants: Constants = []
-    _read_goal(query, given, tokens, constants)
+    _read_goal(query, given, tokens, constants, DEEPEST)
     tokens.pop()  # the last list's end is the query's
     return tuple(tokens), constants
 
 
-def _read_goal(goal: Value, given: Given, tokens: list[Any], constants: Constants) -> None:
+def _read_goal(goal: Value, given: Given, tokens: list[Any], constants: Constants, room: int) -> None:
+    if not room:
+        raise Failure(STACK_EXHAUSTED)
     if goal.__class__ is not Cons:
         raise type_error(goal, "LIST")
     name = goal.car
     if not isinstance(name, Symbol) or is_variable(name):
-        raise type_error(name, "RELATION")
+        raise type_error(name, RELATION)
     tokens.append(name)
     parts = items(goal.cdr)
     if name in CONNECTIVES:
         if name is NOT and len(parts) != 1:
-            raise simple_error("NOT is said of one goal, not of ~D: ~S", len(parts), goal)
+            raise simple_error("NOT takes one query, found", goal)
         for part in parts:
-            _read_goal(part, given, tokens, constants)
+            _read_goal(part, given, tokens, constants, room - 1)
     else:
         for part in parts:
             kind = part.__class__
             if kind not in DIRECT or (kind is Symbol and part.name[:1] == "?"):
-                _read_term(part, given, tokens, constants)
+                _read_term(part, given, tokens, constants, room - 1)
             else:
                 tokens.append(CONSTANT)
                 constants.append(part)
     tokens.append(CLOSE)
 
 
-def _read_term(term: Value, given: Given, tokens: list[Any], constants: Constants) -> None:
+def _read_term(term: Value, given: Given, tokens: list[Any], constants: Constants, room: int) -> None:
     if is_variable(term):
         if term in given and term.name != ANYTHING:
             tokens.append(GIVEN)
@@ -160,14 +132,16 @@ def _read_term(term: Value, given: Given, tokens: list[Any], constants: Constant
     if variable_in(code) is None:
         tokens.append(CONSTANT)
         constants.append(code)
+    elif not room:
+        raise Failure(STACK_EXHAUSTED)
     else:
         tokens.append(OPEN)
         while term.__class__ is Cons:
-            _read_term(term.car, given, tokens, constants)
+            _read_term(term.car, given, tokens, constants, room - 1)
             term = term.cdr
         if term is not None:
             tokens.append(LAST)
-            _read_term(term, given, tokens, constants)
+            _read_term(term, given, tokens, constants, room - 1)
         tokens.append(CLOSE)
 
 

@@ -20,12 +20,13 @@ from eslang.facts.procs import Planner, reached_from, tests
 from eslang.facts.relations import Relation
 from eslang.facts.rules import Name, Rule
 from eslang.facts.steps import Steps, may_repeat
-from eslang.facts.views import Pace, Pauses, View
+from eslang.facts.views import Accesses, Pace, Pauses, View
 from eslang.facts.watching import Reads
 
 Solution = dict[Symbol, Value]
 DEEPEST = 1000  # queries that ask Lisp inside one another: generators use the C stack
 Call = Callable[[Symbol, list[Value]], bool]
+Searcher = tuple[View, Callable[..., Iterator[Solution]]]
 
 
 class Plan:
@@ -41,6 +42,7 @@ class Plan:
         "run_alists",
         "run_all",
         "run_first",
+        "spare",
         "tests",
     )
 
@@ -62,6 +64,7 @@ class Plan:
         self.run_all: Callable[..., Any] | None = None  # what runs on the facts as they are, if it is kept
         self.run_alists: Callable[..., Any] | None = None
         self.run_first: Callable[..., Any] | None = None
+        self.spare: Searcher | None = None  # that nobody uses
 
     def functions(self, kind: str) -> Compiled:
         """The functions that answer in this way."""
@@ -77,14 +80,13 @@ class Plan:
 
         def pause() -> None:
             self.forget_runs()  # what paused is for the query that it answers
-            self.pauses.leave(run, view)
+            self.pauses.leave(view)
 
-        run = compiled.make(view, self.call, Pace(self.pauses, pause))
-        return run
+        return compiled.make(view, self.call, Pace(self.pauses, pause))
 
     def forget_runs(self) -> None:
         """What was kept to run again is not to be."""
-        self.run_all = self.run_alists = self.run_first = None
+        self.run_all = self.run_alists = self.run_first = self.spare = None
 
     def all(self, constants: Constants) -> list[Solution]:
         """All solutions."""
@@ -120,27 +122,33 @@ class Plan:
         compiled = self.functions(kind)
         if depth[0] > DEEPEST:
             raise RecursionError("too many queries that ask Lisp inside one another")
-        if reads is None:
-            view, pace = View(compiled.accesses), Pace(self.pauses, self.pauses.between)
-        else:
-            view = View(compiled.accesses, partial(reads.through, compiled.accesses))
-            pace = Pace(self.pauses, self.pauses.look)  # a change in a pause would not be noted
+        noted = None if reads is None else partial(reads.through, compiled.accesses)
+        view = View(compiled.accesses, noted)
+        pace = Pace(self.pauses, self.pauses.between)
         view.open()
         depth[0] += 1
         try:
             return compiled.make(view, self.call, pace)(*constants)
         finally:
             depth[0] -= 1
+            if reads is not None:
+                reads.compare(view)
             view.close()
 
     def solutions(self, constants: Constants) -> Solutions:
         """The solutions of this moment, one at a time."""
+        return Solutions(self, constants)
+
+    def searcher(self) -> Searcher:
+        """What finds one solution after another, and the view that it reads."""
+        if self.spare is not None:
+            spare, self.spare = self.spare, None
+            return spare
         compiled = self.functions(LAZY)
-        view = View(compiled.accesses)
-        view.open()
-        return Solutions(
-            view, lambda: compiled.make(view, self.call, Pace(self.pauses, self.pauses.between))(*constants)
-        )
+        view, pace = View(compiled.accesses), Pace(self.pauses, self.pauses.between)
+        if self.is_fresh:
+            return view, lambda *constants: compiled.make(view, self.call, pace)(*constants)
+        return view, compiled.make(view, self.call, pace)
 
     def noting(self, constants: Constants, reads: Reads) -> Solution | None:
         """The first solution, and in READS what was read to find it."""
@@ -168,12 +176,14 @@ class Solutions:
     not told again.
     """
 
-    __slots__ = ("_begin", "_run", "_searches", "_told", "_view")
+    __slots__ = ("_constants", "_plan", "_run", "_search", "_searches", "_told", "_view")
 
-    def __init__(self, view: View, begin: Callable[[], Iterator[Solution]]) -> None:
-        self._view = view
-        self._begin = begin
-        self._run: Iterator[Solution] | None = begin()  # none while it searches
+    def __init__(self, plan: Plan, constants: Constants) -> None:
+        self._plan = plan
+        self._constants = constants
+        self._view, self._search = plan.searcher()
+        self._view.open()
+        self._run: Iterator[Solution] | None = self._search(*constants)  # none while it searches
         self._searches = 0  # that are under way, one inside the other
         self._told = 0
 
@@ -185,13 +195,13 @@ class Solutions:
         self._searches += 1
         try:
             if run is None:
-                run = self._begin()
+                run = self._search(*self._constants)
                 for _ in range(self._told):
                     next(run)
             found = next(run)
         except StopIteration:
             if self._searches == 1:
-                self.close()
+                self._end(True)
             raise
         finally:
             self._searches -= 1
@@ -201,8 +211,18 @@ class Solutions:
 
     def close(self) -> None:
         """No more of them are wanted."""
-        self._view.close()
+        self._end(not self._searches)
+
+    def _end(self, is_idle: bool) -> None:
+        view, self._view = self._view, NOTHING
+        if view.is_open:
+            view.close()
+            if is_idle and view.kept is None:
+                self._plan.spare = view, self._search  # as good as new
         self._run = iter(())
 
     def __del__(self) -> None:
         self._view.close()
+
+
+NOTHING = View(Accesses(()))

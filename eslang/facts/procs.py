@@ -15,7 +15,7 @@ from eslang.base.symbols import Keyword, Symbol
 from eslang.facts.goals import Atom, Constant, Constants, Nested, Shape, unbound, variables_of
 from eslang.facts.relations import Positions, Relation
 from eslang.facts.rules import Name, Rule
-from eslang.facts.steps import Absent, Arranger, Bound, Branch, Look, Present, Steps, Test, is_known
+from eslang.facts.steps import Arranger, Bound, Branch, Look, Steps, Test, is_known, ways_of
 from eslang.facts.transitive import ends_of, walking
 
 UNBOUNDED = Keyword("UNBOUNDED-RULES")
@@ -31,12 +31,13 @@ class Clause(NamedTuple):
 class Proc:
     """How to answer for RELATION when the terms at POSITIONS are known."""
 
-    __slots__ = ("circle", "clauses", "failure", "number", "positions", "relation")
+    __slots__ = ("circle", "clauses", "failure", "is_direct", "number", "positions", "relation")
 
-    def __init__(self, number: int, relation: Relation, positions: Positions) -> None:
+    def __init__(self, number: int, relation: Relation, positions: Positions, is_direct: bool) -> None:
         self.number = number
         self.relation = relation
         self.positions = positions
+        self.is_direct = is_direct  # whether it leaves transitive rules to those that ask
         self.clauses: list[Clause] = []
         self.circle: frozenset[Proc] = frozenset()  # those that need this one and are needed by it
         self.failure: Failure | None = None  # why the rules cannot run like this
@@ -75,7 +76,7 @@ class Planner:
         self.rules_of = rules_of
         self.constants = list(constants)  # the query's, and then those of the rules
         self.procs: dict[tuple[Relation, Positions, bool], Proc] = {}
-        self.tests: dict[Symbol, None] = {}  # what of Lisp is asked
+        self.needs: dict[Relation, set[Name]] = {}
 
     def plan(self, shape: Shape) -> Steps:
         """The steps for a query."""
@@ -90,7 +91,8 @@ class Planner:
             return None
         proc = self.procs.get((relation, positions, is_direct))
         if proc is None:
-            proc = self.procs[relation, positions, is_direct] = Proc(len(self.procs), relation, positions)
+            proc = Proc(len(self.procs), relation, positions, is_direct)
+            self.procs[relation, positions, is_direct] = proc
             try:
                 proc.clauses = [self._clause(rule, positions) for rule in rules]
             except Failure as failure:
@@ -110,7 +112,22 @@ class Planner:
         return rules
 
     def _arranger(self, about: Relation | None = None) -> Arranger:
-        return Arranger(self.resolve, self.proc, self.constants, about)
+        def returns(relation: Relation) -> bool:
+            return about is not None and (about.name, about.arity) in self._needs(relation)
+
+        return Arranger(self.resolve, self.proc, self.constants, about, returns)
+
+    def _needs(self, relation: Relation) -> set[Name]:
+        """RELATION, and what its rules need, directly or not."""
+        found = self.needs.get(relation)
+        if found is None:
+            pending = [(relation.name, relation.arity)]
+            found = self.needs[relation] = set(pending)
+            for name in pending:
+                asked = dict.fromkeys(need.name for rule in self.rules_of(name) for need in rule.needs)
+                pending += [each for each in asked if each not in found]
+                found.update(asked)
+        return found
 
     def _clause(self, rule: Rule, positions: Positions) -> Clause:
         """How RULE answers when what stands at POSITIONS of its head is known."""
@@ -163,10 +180,8 @@ def looks(steps: Steps) -> Iterator[Look]:
     for step in steps:
         if isinstance(step, Look):
             yield step
-        elif isinstance(step, Absent):
-            yield from looks(step.steps)
-        elif not isinstance(step, Test):
-            for way in step.ways:
+        else:
+            for way in ways_of(step):
                 yield from looks(way)
 
 
@@ -180,10 +195,8 @@ def tests(steps: Steps) -> Iterator[Symbol]:
     for step in steps:
         if isinstance(step, Test):
             yield step.atom.name
-        elif isinstance(step, Absent):
-            yield from tests(step.steps)
-        elif isinstance(step, Present | Branch):
-            for way in step.ways:
+        else:
+            for way in ways_of(step):
                 yield from tests(way)
 
 
@@ -220,7 +233,8 @@ def _always_bound(steps: Steps, bound: Bound) -> Bound:
         if isinstance(step, Look):
             bound |= variables_of(step.atom).keys()
         elif isinstance(step, Branch):
-            ways = [_always_bound(way, bound) for way in step.ways]
+            ways = [_always_bound(rest.steps, rest.bound) for rest in step.rests]
+            ways = ways or [_always_bound(way, bound) for way in step.ways]
             bound = ways[0].intersection(*ways) if ways else bound
     return bound
 

@@ -10,9 +10,10 @@ from __future__ import annotations
 from eslang.base.failure import WRONG_NUMBER_OF_ARGUMENTS, Failure
 from eslang.base.hints import TYPE_CHECKING, Callable
 from eslang.base.symbols import Symbol, Value
-from eslang.facts.goals import NOTHING_GIVEN, Atom, Constants, Given, Tokens, quick_tokens, read_query
+from eslang.facts.goals import NOTHING_GIVEN, Atom, Constants, Given, Tokens, read_query
 from eslang.facts.relations import Relation
 from eslang.facts.rules import Name, Rule, Rules, read_rule
+from eslang.facts.shapes import END, Shapes, behind
 from eslang.facts.store import MANY, Store
 from eslang.facts.views import Pauses
 from eslang.facts.watching import Reads, woken_by_rules
@@ -32,13 +33,15 @@ class Facts(Store):
         self.declared: dict[Symbol, list[int]] = {}  # names, and the arities they were declared with
         self.arguments: dict[Name, tuple[Symbol, ...]] = {}  # what they are called, where that is declared
         self.rules = Rules(self.is_test)
+        self.definitions = 0  # how often rules were defined or forgotten
         self.pauses = Pauses(lambda: self.is_telling)
-        self.plans: dict[Tokens | None, Plan] = {}
+        self.plans = Shapes()
         self.guesses: dict[Tokens, Plan] = {}  # plans with names that nobody defined yet
         self.guessed: dict[Symbol, None] = {}  # these names, while a plan is made
 
     def declare(self, name: Symbol, arity: int | None = None, arguments: tuple[Symbol, ...] = ()) -> None:
         """Let NAME be a relation, of ARITY if that is told, whose ARGUMENTS are called so if that is."""
+        self.check_name(name)
         if arguments:
             self.arguments[name, len(arguments)] = arguments
         arities = self.declared.setdefault(name, [])
@@ -85,6 +88,7 @@ class Facts(Store):
     def define_rule(self, head: Value, body: Value) -> bool:
         """Derive HEAD from the goals in the list BODY, too; false if that is known."""
         rule = read_rule(head, body)
+        self.check_name(rule.name[0])
         for name in (rule.name, *(need.name for need in rule.needs if not self.is_test(need.name[0]))):
             self._check_arity(*name)
         is_new = self.rules.define(rule)
@@ -101,7 +105,7 @@ class Facts(Store):
     def all(self, query: Value, given: Given = NOTHING_GIVEN) -> list[Solution]:
         """All solutions of QUERY; the variables that are GIVEN have their values."""
         constants: Constants = []
-        plan = None if given else self.plans.get(quick_tokens(query, constants))
+        plan = None if given else behind(self.plans.root, query, constants).get(END)
         if plan is None:
             plan, constants = self.plan(query, given)
         run = plan.run_all
@@ -110,7 +114,7 @@ class Facts(Store):
     def alists(self, query: Value, complete: Callable[[Value], Value]) -> Value:
         """All solutions of QUERY, as Lisp has them; COMPLETE puts in what stands for something else."""
         constants: Constants = []
-        plan = self.plans.get(quick_tokens(query, constants))
+        plan = behind(self.plans.root, query, constants).get(END)
         if plan is None:
             plan, constants = self.plan(complete(query))
         run = plan.run_alists
@@ -119,7 +123,7 @@ class Facts(Store):
     def first(self, query: Value, given: Given = NOTHING_GIVEN) -> Solution | None:
         """The first solution of QUERY; None if there is none."""
         constants: Constants = []
-        plan = None if given else self.plans.get(quick_tokens(query, constants))
+        plan = None if given else behind(self.plans.root, query, constants).get(END)
         if plan is None:
             plan, constants = self.plan(query, given)
         run = plan.run_first
@@ -127,20 +131,17 @@ class Facts(Store):
 
     def solutions(self, query: Value, given: Given = NOTHING_GIVEN) -> Solutions:
         """The solutions that QUERY has now, found one at a time, whatever is changed meanwhile."""
-        constants: Constants = []
-        plan = None if given else self.plans.get(quick_tokens(query, constants))
-        if plan is None:
-            plan, constants = self.plan(query, given)
+        plan, constants = self._planned(query, given)
         return plan.solutions(constants)
 
     def ask(self, query: Value, given: Given = NOTHING_GIVEN) -> tuple[Solution | None, Reads]:
         """The first solution of QUERY, if any, and what was read to know that."""
         reads = Reads()
-        constants: Constants = []
-        plan = None if given else self.plans.get(quick_tokens(query, constants))
-        if plan is None:
-            plan, constants = self.plan(query, given)
-        return plan.noting(constants, reads), reads
+        plan, constants = self._planned(query, given)
+        definitions = self.definitions
+        found = plan.noting(constants, reads)
+        reads.overtaken = reads.overtaken or self.definitions != definitions
+        return found, reads
 
     def explain(self, query: Value, given: Given = NOTHING_GIVEN) -> Explanation:
         """How QUERY is answered."""
@@ -150,7 +151,7 @@ class Facts(Store):
     def plan(self, query: Value, given: Given = NOTHING_GIVEN) -> tuple[Plan, Constants]:
         """How QUERY is answered, and its constants."""
         tokens, constants = read_query(query, given)
-        plan = self.plans.get(tokens) or self.guesses.get(tokens)
+        plan: Plan | None = self.plans.by_tokens.get(tokens) or self.guesses.get(tokens)
         if plan is None or any(map(self.is_call, plan.guessed)):
             from eslang.facts.plans import make_plan
 
@@ -159,8 +160,17 @@ class Facts(Store):
                 self._forget_plans()
             plan = make_plan(self._resolve, self._rules_of, tokens, constants, self.call, self.pauses)
             plan.guessed = tuple(self.guessed)
-            (self.guesses if plan.guessed else self.plans)[tokens] = plan
+            if plan.guessed:
+                self.guesses[tokens] = plan
+            else:
+                self.plans.put(tokens, plan)
         return plan, constants
+
+    def _planned(self, query: Value, given: Given) -> tuple[Plan, Constants]:
+        """The same, quickly if it can be; where a call counts, the lines of this stand themselves."""
+        constants: Constants = []
+        plan: Plan | None = None if given else behind(self.plans.root, query, constants).get(END)
+        return self.plan(query, given) if plan is None else (plan, constants)
 
     def _forget_plans(self) -> None:
         self.plans.clear()
@@ -179,6 +189,7 @@ class Facts(Store):
 
     def _rules_changed(self, names: list[Name]) -> None:
         """Forget the plans, and wake who asked these relations."""
+        self.definitions += 1
         self._forget_plans()
         asked = [self.relations[name] for name in names if name in self.relations]
         woken = dict.fromkeys(watch for relation in asked for watch in woken_by_rules(relation))

@@ -42,7 +42,7 @@ class Relation:
         self.is_plain = True  # every code in the rows is a value
         self.indexes: list[Index] = []
         self.unique: Positions | None = None  # of a property: the positions that determine the last one
-        self.views: list[Any] = []  # the open ones that read here (views.py)
+        self.views: dict[Any, None] = {}  # the open ones that read here (views.py)
         self.moved = moved  # is called when `rows` is another dict
         self.watched: dict[Positions, Any] = {}  # who waits for a change (watching.py)
 
@@ -59,19 +59,24 @@ class Relation:
 
     def add(self, row: Row) -> None:
         """Take ROW, which is not there yet, as the last one."""
-        for view in self.views:
-            view.keep(self, row)
+        if self.views:
+            self._keep(row)
         self.rows[row] = None
         for index in self.indexes:
             _put(index, row)
 
     def remove(self, row: Row) -> None:
         """Give up ROW, which is there."""
-        for view in self.views:
-            view.keep(self, row)
+        if self.views:
+            self._keep(row)
         del self.rows[row]
         for index in self.indexes:
             _take(index, row)
+
+    def _keep(self, row: Row) -> None:
+        """Let the views keep what they see where ROW comes or goes; one may close meanwhile, as garbage."""
+        for view in tuple(self.views):
+            view.keep(self, row)
 
     def rivals(self, row: Row) -> list[Row]:
         """The rows that cannot stand beside ROW, since this is a property."""

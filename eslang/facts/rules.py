@@ -15,6 +15,7 @@ from eslang.facts.goals import (
     AND,
     NOT,
     OR,
+    RELATION,
     Atom,
     Both,
     Constants,
@@ -121,7 +122,7 @@ def read_rule(head: Value, body: Value) -> Rule:
     if head.__class__ is not Cons:
         raise type_error(head, "LIST")
     if head.car in (AND, OR, NOT):
-        raise type_error(head.car, "RELATION")
+        raise type_error(head.car, RELATION)
     tokens, constants = read_query(Cons(AND, Cons(head, body)))
     goal = shape_of(tokens).goal
     assert isinstance(goal, Both) and isinstance(goal.goals[0], Atom)

@@ -13,7 +13,7 @@ from eslang.facts.goals import ANYTHING, Constant, Nested, Term
 from eslang.facts.nested import Leaf, builder, leaves_of, matcher, written, written_with
 from eslang.facts.procs import Proc
 from eslang.facts.relations import Access
-from eslang.facts.steps import Absent, Branch, Look, Present, Steps, Test
+from eslang.facts.steps import Absent, Branch, Join, Look, Present, Steps, Test
 
 Scope = dict[Symbol, str]  # the Python variable that holds the code of a logic variable
 DEEPEST = 12  # blocks within one function; Python takes 20
@@ -28,6 +28,18 @@ class Sink(NamedTuple):
     onward: tuple[str, ...]  # lines, {} for the call
     ending: tuple[str, ...] = ()  # lines at the end of every part
     circle: frozenset[Proc] = frozenset()  # whose answers are still being found while this runs
+    joints: tuple[Joint, ...] = ()  # where ways that are being said may end
+
+
+class Joint(NamedTuple):
+    """Where the ways of an OR come together, to go on with a rest."""
+
+    number: int
+    steps: Steps
+    seen: str  # the Python variable that holds the values with which the rest was done
+    scope: Scope  # before the OR
+    sink: Sink  # of what comes behind it
+    calls: dict[tuple[Symbol, ...], str]  # functions that do the rest, by what the ways bind
 
 
 class Source:
@@ -95,11 +107,46 @@ class Body:
             if isinstance(step, Look):
                 self._look(step, rest, scope, depth)
             elif isinstance(step, Branch):
-                for way in step.ways:
-                    self.emit(way, scope, depth)
+                self._branch(step, scope, depth)
+            elif isinstance(step, Join):
+                self._join(step, scope, depth)
             else:
                 self.line(depth, f"if {self._claim(step, scope)}:")
                 self.emit(rest, scope, depth + 1)
+
+    def _branch(self, branch: Branch, scope: Scope, depth: int) -> None:
+        """Go one way after the other."""
+        outer = self.sink
+        for rest in branch.rests:
+            seen = self.source.fresh("j")
+            self.line(depth, f"{seen} = set()")
+            joint = Joint(rest.number, rest.steps, seen, scope, outer, {})
+            self.sink = self.sink._replace(names=(*self.sink.names, seen), joints=(*self.sink.joints, joint))
+        for way in branch.ways:
+            self.emit(way, scope, depth)
+        self.sink = outer
+
+    def _join(self, join: Join, scope: Scope, depth: int) -> None:
+        """Go on with the rest behind an OR, once for the same values: in a function that all ways call."""
+        joint = next(each for each in self.sink.joints if each.number == join.number)
+        fresh = sorted((each for each in scope if each not in joint.scope), key=str)
+        carried = list(dict.fromkeys([*joint.sink.names, *joint.scope.values()]))
+        values = [scope[each] for each in fresh]
+        name = joint.calls.get(tuple(fresh)) or self._rest(joint, fresh, carried)
+        self.line(depth, f"if {tuple_of(values)} not in {joint.seen}:")
+        self.line(depth + 1, f"{joint.seen}.add({tuple_of(values)})")
+        for text in joint.sink.onward:
+            self.line(depth + 1, text.replace("{}", f"{name}({', '.join([*carried, *values])})"))
+
+    def _rest(self, joint: Joint, fresh: list[Symbol], carried: list[str]) -> str:
+        """A function that does the rest at JOINT, of what is CARRIED and of FRESH variables."""
+        name = joint.calls[tuple(fresh)] = self.source.fresh("g")
+        names = {each: self.source.fresh("v") for each in fresh}
+        part = Body(self.source, joint.sink, self.constants)
+        part.emit(joint.steps, {**joint.scope, **names}, 0)
+        part.lines += joint.sink.ending
+        self.source.add(f"def {name}({', '.join([*carried, *names.values()])}):", part.lines or ["pass"])
+        return name
 
     def _claim(self, step: Test | Absent | Present, scope: Scope) -> str:
         """The Python expression that is true if STEP is."""

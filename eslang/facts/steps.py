@@ -8,7 +8,7 @@ Where that leaves a choice, goals are asked in the order in which they stand.
 
 from __future__ import annotations
 
-from eslang.base.failure import Failure
+from eslang.base.failure import Failure, simple_error
 from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import (
@@ -63,15 +63,33 @@ class Present(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """Go each of these ways; each holds all that is still to be done."""
+    """Go each of these ways; each holds all that is still to be done, or leads to one of the rests."""
 
     goal: Either
     ways: tuple[Steps, ...]
+    rests: list[Rest]
 
 
-Step = Look | Test | Absent | Present | Branch
+class Rest(NamedTuple):
+    """What is still to be done behind an OR, for all ways that bind the same variables."""
+
+    number: int
+    bound: Bound
+    steps: Steps
+
+
+class Join(NamedTuple):
+    """The end of a way: go on with the rest of this number, unless that was done with the same values."""
+
+    number: int
+
+
+Step = Look | Test | Absent | Present | Branch | Join
 Steps = list[Step]
+End = Callable[[Bound], Join]  # where a way goes on that binds these variables
 
+MANY = 8  # ways through the ORs of a body, one after the other: if there are more, the ways are joined
+MOST = 5000  # ways of one body, all in all: they multiply if they bind different variables
 GROUND, DECIDED, DETERMINED, JOINED, KNOWN, ITSELF, UNKNOWN = range(7)  # how promising a goal is
 
 
@@ -84,40 +102,93 @@ class Arranger:
         rules: Callable[[Relation, Positions, bool], Any],
         constants: Constants,
         about: Relation | None = None,
+        returns: Callable[[Relation], bool] = lambda relation: False,
     ) -> None:
         self.about = about  # what the rule derives, if these are the goals of a rule
+        self.returns = returns  # whether a question for a relation may lead back to what the rule derives
         self.resolve = resolve  # the relation that an atom is about; None: it is a test
         self.rules = rules  # what answers by rules, or None (procs.py); fails where they cannot run
         self.constants = constants
+        self._room: int | None = None  # for ways through further ORs, after the first one
+        self._rests = 0
+        self._ways: dict[tuple[int, Bound], Steps] = {}  # for goals that stand alone, by their identity
 
-    def arrange(self, goals: tuple[Goal, ...], bound: Bound) -> Steps:
-        """The steps for GOALS, when BOUND variables have values."""
+    def _way(self, goal: Goal, bound: Bound) -> Steps:
+        """The steps for GOAL alone: who wants to know whether it can be asked has them made already."""
+        found = self._ways.get((id(goal), bound))
+        if found is None:
+            found = self._ways[id(goal), bound] = self.arrange((goal,), bound)
+        return found
+
+    def arrange(self, goals: tuple[Goal, ...], bound: Bound, end: End | None = None) -> Steps:
+        """The steps for GOALS, when BOUND variables have values; what comes at the END of every way."""
         steps: Steps = []
         left = _flat(goals)
         while left:
             number = self._next(left, bound)
             goal = left.pop(number)
             if isinstance(goal, Either) and not self._is_decided(goal, bound):
-                rest = tuple(left)
-                branch = Branch(goal, tuple(self.arrange((each, *rest), bound) for each in goal.goals))
-                return [*steps, branch]
+                return [*steps, self._branch(goal, tuple(left), bound, end)]
             steps.append(self._step(goal, bound))
             if isinstance(goal, Atom):
-                bound |= variables_of(goal).keys()
-        return steps
+                bound = bound.union(variables_of(goal))
+        return steps if end is None else [*steps, end(bound)]
+
+    def _branch(self, goal: Either, left: tuple[Goal, ...], bound: Bound, end: End | None) -> Branch:
+        """The step for GOAL, which has several ways, with all that is LEFT behind it."""
+        self._room = MOST if self._room is None else self._room - len(goal.goals)
+        if self._room < 0:
+            raise simple_error("there are too many ways through the ORs of this query: make one a rule")
+        if left and self._count_ways((goal, *left), bound) > MANY:
+            rests: list[Rest] = []
+            join = self._joining(rests, left, end)
+            return Branch(goal, tuple(self.arrange((each,), bound, join) for each in goal.goals), rests)
+        if left or end is not None:
+            return Branch(goal, tuple(self.arrange((each, *left), bound, end) for each in goal.goals), [])
+        return Branch(goal, tuple(self._way(each, bound) for each in goal.goals), [])
+
+    def _count_ways(self, goals: tuple[Goal, ...], bound: Bound) -> int:
+        """How many ways lead through the ORs among GOALS."""
+        count = 1
+        for goal in goals:
+            if isinstance(goal, Either) and not self._is_decided(goal, bound):
+                count *= max(len(goal.goals), 1)
+        return count
+
+    def _joining(self, rests: list[Rest], left: tuple[Goal, ...], end: End | None) -> End:
+        """What ends ways that are joined: what is LEFT is arranged once for all, as one of RESTS."""
+
+        def join(bound: Bound) -> Join:
+            for rest in rests:
+                if rest.bound == bound:
+                    return Join(rest.number)
+            self._rests += 1
+            number = self._rests
+            rests.append(Rest(number, bound, self.arrange(left, bound, end)))
+            return Join(number)
+
+        return join
 
     def _step(self, goal: Goal, bound: Bound) -> Step:
         """The step for a GOAL that is ready."""
         if isinstance(goal, Never):
             return Absent(goal, self.arrange((goal.goal,), bound))
         if isinstance(goal, Either):
-            return Present(goal, tuple(self.arrange((each,), bound) for each in goal.goals))
+            return Present(goal, tuple(self._way(each, bound) for each in goal.goals))
         assert isinstance(goal, Atom)
         relation = self.resolve(goal)
         if relation is None:
             return Test(goal)
-        proc = self.rules(relation, asked_positions(goal, bound), goal.is_direct)
+        proc = self._proc(relation, goal, bound)
         return Look(goal, relation, known_positions(goal, bound) if proc is None else proc.positions, proc)
+
+    def _proc(self, relation: Relation, goal: Atom, bound: Bound) -> Any:
+        """What answers GOAL by rules; it is not told terms that the question makes, if it might never end."""
+        known = known_positions(goal, bound)
+        plain = tuple(place for place in known if not isinstance(goal.terms[place], Nested))
+        if plain != known and self.returns(relation):
+            known = plain
+        return self.rules(relation, known, goal.is_direct)
 
     def _next(self, left: list[Goal], bound: Bound) -> int:
         """Which goal comes next; fails if none is ready."""
@@ -140,12 +211,12 @@ class Arranger:
         try:
             if isinstance(goal, Either):
                 for each in goal.goals:
-                    self.arrange((each,), bound)
+                    self._way(each, bound)
                 return None
             relation = self.resolve(goal) if isinstance(goal, Atom) else None
             if relation is not None:
                 assert isinstance(goal, Atom)
-                self.rules(relation, asked_positions(goal, bound), goal.is_direct)
+                self._proc(relation, goal, bound)
                 return None
         except Failure as failure:
             if failure.cause is not UNBOUND:
@@ -191,6 +262,15 @@ class Arranger:
         return form_of(goal, self.constants)
 
 
+def ways_of(step: Step) -> tuple[Steps, ...]:
+    """The steps inside STEP."""
+    if isinstance(step, Absent):
+        return (step.steps,)
+    if isinstance(step, Branch):
+        return (*step.ways, *(rest.steps for rest in step.rests))
+    return step.ways if isinstance(step, Present) else ()
+
+
 def _flat(goals: tuple[Goal, ...]) -> list[Goal]:
     """GOALS, with what stands in an AND in its place."""
     flat: list[Goal] = []
@@ -202,12 +282,6 @@ def _flat(goals: tuple[Goal, ...]) -> list[Goal]:
 def known_positions(atom: Atom, bound: Bound) -> Positions:
     """Where terms of ATOM stand that are known when BOUND variables have values."""
     return tuple(place for place, term in enumerate(atom.terms) if is_known(term, bound))
-
-
-def asked_positions(atom: Atom, bound: Bound) -> Positions:
-    """The same, where rules are asked: without terms that the question makes, or it might never end."""
-    known = known_positions(atom, bound)
-    return tuple(place for place in known if not isinstance(atom.terms[place], Nested))
 
 
 def is_known(term: Term, bound: Bound) -> bool:

@@ -14,10 +14,10 @@ from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import (
     CONNECTIVES,
+    FACT,
+    RELATION,
     Atom,
     Constants,
-    Tokens,
-    quick_tokens,
     read_query,
     shape_of,
     unbound,
@@ -27,6 +27,7 @@ from eslang.facts.journal import Journal
 from eslang.facts.patterns import Pattern
 from eslang.facts.properties import overruled, unique_positions
 from eslang.facts.relations import Relation
+from eslang.facts.shapes import END, Shapes, behind
 from eslang.facts.terms import DIRECT, Code, Row, code_of, fact_of
 from eslang.facts.unify import is_variable
 from eslang.facts.watching import Change, Watch, woken_by
@@ -41,13 +42,14 @@ class Store:
 
     def __init__(self) -> None:
         self.relations: dict[tuple[Symbol, int], Relation] = {}
+        self.reserved = CONNECTIVES  # names that mean something else in every query
         self.properties: dict[Symbol, None] = {}
         self.known: dict[Symbol, None] = {}  # names that have, or had, facts
         self.subscribers: list[Subscriber] = []
         self.audience: Sequence[object] = ()  # while there is one, TELL is called with each change, too
         self.tell: Subscriber = lambda change: None
         self.journal: Journal | None = None
-        self._patterns: dict[Tokens | None, Pattern] = {}  # that were asked for by RETRACT and UPDATE
+        self._patterns = Shapes()  # that were asked for by RETRACT and UPDATE
         self._changes: list[tuple[Relation, Change]] = []  # parts of a change that is not whole yet
         self._calls: list[tuple[Callable[[Any], object], Change | None]] = []  # that are due
         self.is_telling = False
@@ -56,10 +58,16 @@ class Store:
         """The relation of that name and arity; an empty one if nobody spoke of it yet."""
         relation = self.relations.get((name, arity))
         if relation is None:
+            self.check_name(name)
             relation = self.relations[name, arity] = Relation(name, arity, self.rows_moved)
             if name in self.properties:
                 relation.unique = unique_positions(arity)
         return relation
+
+    def check_name(self, name: Value) -> None:
+        """Fail if no relation can be called NAME."""
+        if not isinstance(name, Symbol) or is_variable(name) or name in self.reserved:
+            raise type_error(name, RELATION)
 
     def named(self, name: Symbol) -> list[Relation]:
         """The relations of that name, whatever their arity."""
@@ -89,11 +97,11 @@ class Store:
         is_plain = True
         while rest.__class__ is Cons:
             if len(row) == LONGEST:
-                raise type_error(fact, "FACT")
+                raise type_error(fact, FACT)
             term = rest.car
             rest = rest.cdr
             kind = term.__class__
-            if kind not in DIRECT or (kind is Symbol and "?" <= term.name < "@"):
+            if kind not in DIRECT or (kind is Symbol and (word := term.name) < "@" and word >= "?"):
                 term = code_of(term)
                 variable = variable_in(term)
                 if variable is not None:
@@ -104,8 +112,6 @@ class Store:
             raise type_error(fact, "LIST")
         relation = self.relations.get((name, len(row)))
         if relation is None:
-            if not isinstance(name, Symbol) or is_variable(name) or name in CONNECTIVES:
-                raise type_error(name, "RELATION")
             relation = self.relation(name, len(row))
         if relation.is_plain and not is_plain:
             self.became_coded(relation)
@@ -130,8 +136,15 @@ class Store:
     def add_all(self, facts: Iterable[Value]) -> int:
         """Hold all FACTS, as one change; how many were not held already. All are read before any is taken."""
         read = self.read_fact if self.journal is None else self.check
-        rows = [read(fact) for fact in facts]
-        count = sum([self._add(relation, row) for relation, row in rows])
+        relations: list[Relation] = []  # two lists: pairs would take more room than the facts
+        rows: list[Row] = []
+        for fact in facts:
+            relation, row = read(fact)
+            relations.append(relation)
+            rows.append(row)
+        count = 0
+        for relation, row in zip(relations, rows, strict=True):
+            count += self._add(relation, row)
         self._tell()
         return count
 
@@ -173,16 +186,17 @@ class Store:
     def matching(self, pattern: Value) -> tuple[Relation, list[Row]]:
         """The relation that PATTERN is about, and its rows that match, in order."""
         constants: Constants = []
-        found = self._patterns.get(quick_tokens(pattern, constants))
+        found: Pattern | None = behind(self._patterns.root, pattern, constants).get(END)
         if found is None:
             tokens, constants = read_query(pattern)
             atom = shape_of(tokens).goal
             if not isinstance(atom, Atom):
-                raise type_error(pattern, "FACT")
+                raise type_error(pattern, FACT)
             relation = self.relation(atom.name, len(atom.terms))
             if len(self._patterns) >= MANY:
                 self._patterns.clear()
-            found = self._patterns[tokens] = Pattern(relation, atom.terms)
+            found = Pattern(relation, atom.terms)
+            self._patterns.put(tokens, found)
         return found.relation, found.rows(constants)
 
     def declare_property(self, name: Symbol) -> None:

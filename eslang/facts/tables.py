@@ -58,6 +58,13 @@ class Tables:
         if table.shared:
             self.agenda.append((rest, target, environment, list(table.shared)))
 
+    def clear(self) -> None:
+        """Nothing is asked any more."""
+        for table in self.tables.values():
+            table.consumers.clear()
+        self.tables.clear()
+        self.starts.clear()
+
     def _begin(self, number: int, key: Key) -> Table:
         table = self.tables[number, key] = Table()
         self.agenda.append((self.starts[number], table, key, []))

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from types import FunctionType
 
+from eslang.base.hashing import Identity
 from eslang.base.hints import Any
 from eslang.base.lists import Cons, check_finite
 from eslang.base.symbols import Datum, Keyword, Symbol, Value
@@ -33,21 +34,6 @@ class _Mark:
 PAIR = _Mark()
 
 
-class Foreign:
-    """The code of an object that is none of Lisp's: it is the same as itself only."""
-
-    __slots__ = ("value",)
-
-    def __init__(self, value: Value) -> None:
-        self.value = value
-
-    def __hash__(self) -> int:
-        return id(self.value)
-
-    def __eq__(self, other: object) -> bool:
-        return other.__class__ is Foreign and other.value is self.value
-
-
 def code_of(value: Value) -> Code:
     """The code of VALUE; equal for values that are EQUAL, and for no others."""
     kind = value.__class__
@@ -62,7 +48,7 @@ def code_of(value: Value) -> Code:
         return (value,) if plain else (float, str(value))
     if isinstance(value, Datum) or kind is FunctionType or kind.__name__ == "Ratio":
         return value
-    return Foreign(value)
+    return Identity(value)
 
 
 def _list_code(value: Cons) -> Code:
@@ -97,7 +83,7 @@ def value_of(code: Code) -> Value:
         if len(code) == 1:
             return code[0]
         return float(code[1]) if code[0] is float else _list_of(code)
-    return code.value if kind is Foreign else code
+    return code.value if kind is Identity else code
 
 
 def _list_of(tokens: Row) -> Value:

@@ -67,18 +67,21 @@ def is_same_pattern(left: Value, right: Value) -> bool:
 
 
 class Patterns:
-    """Things remembered by pattern: what TO-ACHIEVE defined."""
+    """Things remembered by pattern: what TO-ACHIEVE defined. Those of the library come after all others."""
 
     def __init__(self) -> None:
         self.entries: list[tuple[Value, Value]] = []
+        self.own = 0  # how many are not the library's
 
-    def define(self, pattern: Value, entry: Value) -> None:
+    def define(self, pattern: Value, entry: Value, *, is_library: bool = False) -> None:
         """Remember ENTRY for PATTERN, in the place of what was remembered for the same one."""
-        for index, (known, _) in enumerate(self.entries):
-            if is_same_pattern(known, pattern):
+        begin, end = (self.own, len(self.entries)) if is_library else (0, self.own)
+        for index in range(begin, end):
+            if is_same_pattern(self.entries[index][0], pattern):
                 self.entries[index] = (pattern, entry)
                 return
-        self.entries.append((pattern, entry))
+        self.entries.insert(end, (pattern, entry))
+        self.own += not is_library
 
     def exact(self, term: Value) -> Value:
         """What was remembered for TERM itself; None if nothing was."""
@@ -97,3 +100,48 @@ class Patterns:
                 if not bindings:
                     break
         return best
+
+
+Place = tuple[bool, Value]  # a term, and whether its variables are those of the right side
+
+
+def unifiable(left: Value, right: Value) -> bool:
+    """True if LEFT and RIGHT, whose variables are not the same ones, can be made the same."""
+    bound: dict[Place, Place] = {}
+    pending: list[tuple[Place, Place]] = [((False, left), (True, right))]
+    while pending:
+        one, other = (walked(each, bound) for each in pending.pop())
+        if one[1] is other[1] and one[0] is other[0]:
+            continue
+        if is_variable(other[1]):
+            one, other = other, one
+        if is_variable(one[1]):
+            if one[1].name != "?_":
+                if occurs(one, other, bound):
+                    return False
+                bound[one] = other
+        elif one[1].__class__ is Cons and other[1].__class__ is Cons:
+            pending.append(((one[0], one[1].cdr), (other[0], other[1].cdr)))
+            pending.append(((one[0], one[1].car), (other[0], other[1].car)))
+        elif not same(one[1], other[1]):
+            return False
+    return True
+
+
+def walked(place: Place, bound: dict[Place, Place]) -> Place:
+    """PLACE, or what it is BOUND to if it is a variable."""
+    while is_variable(place[1]) and place in bound:
+        place = bound[place]
+    return place
+
+
+def occurs(variable: Place, place: Place, bound: dict[Place, Place]) -> bool:
+    """True if VARIABLE is a part of PLACE, as far as variables are BOUND."""
+    pending = [place]
+    while pending:
+        side, term = walked(pending.pop(), bound)
+        if term.__class__ is Cons:
+            pending += [(side, term.cdr), (side, term.car)]
+        elif (side, term) == variable and is_variable(term):
+            return True
+    return False

@@ -58,14 +58,19 @@ class View:
         if not self.is_open:
             self.is_open = True
             for relation in self.accesses.relations:
-                relation.views.append(self)
+                relation.views[self] = None
 
     def close(self) -> None:
         """Nobody reads here any more."""
         if self.is_open:
             self.is_open = False
             for relation in self.accesses.relations:
-                relation.views.remove(self)
+                del relation.views[self]
+
+    def changes(self) -> Iterable[tuple[Access, Code]]:
+        """What has changed since the view was opened, and was kept."""
+        for access, kept in zip(self.accesses.accesses, self.kept or (), strict=False):
+            yield from ((access, key) for key in kept)
 
     def keep(self, relation: Relation, row: Row) -> None:
         """Note what every access would find ROW among, before ROW comes or goes."""
@@ -117,12 +122,13 @@ class Pace:
 
     def _begin(self) -> Iterator[bool]:
         """The ticks; a jump that leaves a pause must not end them, so it is raised by a part of them."""
-        parts = iter(self._parts, None)
-        self.ticks = ticks = chain.from_iterable(chain.from_iterable(parts))
-        return ticks
+        pause = self.pause
 
-    def _parts(self) -> Iterable[Iterator[Any]]:
-        return repeat(True, SLICE), iter(self.pause, None)
+        def parts() -> Iterable[Iterator[Any]]:
+            return repeat(True, SLICE), iter(pause, None)
+
+        self.ticks = ticks = chain.from_iterable(chain.from_iterable(iter(parts, None)))
+        return ticks
 
 
 class Pauses:
@@ -132,21 +138,21 @@ class Pauses:
         self.is_held = is_held  # whether others are to wait in any case
         self.give_way: Callable[[], None] = lambda: None  # lets others have their turn
         self.look: Callable[[], None] = lambda: None  # sees only whether the run is to end
-        self.left: dict[Callable[..., Any], View] = {}  # runs that began on the facts as they are, and paused
+        self.left: dict[View, None] = {}  # of runs that began on the facts as they are, and paused
 
     def between(self) -> None:
         """A pause of a query that only reads."""
         (self.look if self.is_held() else self.give_way)()
 
-    def leave(self, run: Callable[..., Any], view: View) -> None:
-        """A pause of RUN, which had the facts as they are to itself."""
+    def leave(self, view: View) -> None:
+        """A pause of a run that had the facts as they are to itself, and reads VIEW from now on."""
         if not view.is_open:
             view.open()
-            self.left[run] = view
+            self.left[view] = None
         self.between()
 
-    def end(self, run: Callable[..., Any]) -> None:
-        """RUN is over."""
-        view = self.left.pop(run, None)
-        if view is not None:
+    def end(self, view: View) -> None:
+        """The run that reads VIEW is over."""
+        if view in self.left:
+            del self.left[view]
             view.close()

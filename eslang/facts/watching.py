@@ -13,7 +13,7 @@ from eslang.base.lists import Cons
 from eslang.base.symbols import Symbol
 from eslang.facts.relations import Access, Positions, Project, Relation
 from eslang.facts.terms import Code, Row, fact_of
-from eslang.facts.views import Accesses
+from eslang.facts.views import Accesses, View
 
 
 class Change:
@@ -36,13 +36,14 @@ class Change:
 
 
 class Reads:
-    """What an evaluation read: the keys by access; and whether it asked Lisp, too."""
+    """What an evaluation read: keys by access; whether it asked Lisp, and facts changed before its end."""
 
-    __slots__ = ("asked_lisp", "keys")
+    __slots__ = ("asked_lisp", "keys", "overtaken")
 
     def __init__(self) -> None:
         self.keys: dict[tuple[Relation, Positions], dict[Code, None]] = {}
         self.asked_lisp = False
+        self.overtaken = False
 
     def through(self, accesses: Accesses, readers: list[Callable[..., Any]]) -> list[Callable[..., Any]]:
         """What reads as READERS do, for these accesses, and notes it."""
@@ -51,6 +52,12 @@ class Reads:
         return [
             self._reader(access, reader) for access, reader in zip(accesses.accesses, readers, strict=True)
         ]
+
+    def compare(self, view: View) -> None:
+        """Note whether something that was read has changed since VIEW was opened."""
+        for access, key in view.changes():
+            if key in self.keys.get((access.relation, access.positions), ()):
+                self.overtaken = True
 
     def _reader(self, access: Access, now: Callable[..., Any]) -> Callable[..., Any]:
         noted = self.keys.setdefault((access.relation, access.positions), {})

@@ -30,6 +30,14 @@ class Property(NamedTuple):
     text: str  # as people see them; several are taken in the order of this
 
 
+class Sight(NamedTuple):
+    """What a look at a property has found."""
+
+    holds: bool
+    forget: Callable[[], None]  # ends the watch over what it rests on
+    is_unsteady: bool = False  # it may change without a word: it rests on what cannot be watched
+
+
 def nothing() -> None:
     """Do nothing."""
 
@@ -84,8 +92,13 @@ class Claim:
         return next(iter(self.subscriptions), None)
 
     def persists(self) -> bool:
-        """True if it has subscribers that are not on their way out of everything."""
-        return any(each.task.ending is None for each in self.subscriptions)
+        """True if it has subscribers that are not on their way out of everything, or wait for it even so."""
+        awaited = {} if self.violation is None else {wait.task: None for wait in self.violation.waits}
+        return any(
+            each.task.status is None
+            and (each.task.ending is None or each.wait is not None or each.task in awaited)
+            for each in self.subscriptions
+        )
 
     def stand(self, standing: str, now: float) -> None:
         """From NOW on it is STANDING so."""

@@ -151,12 +151,13 @@ def why_no_change(wait: Wait, alive: list[Task]) -> tuple[str, str]:
     shown_names = " or ".join([shown(name) for name in names[:FEW]])
     for task in alive:
         if asserts(task, names):
-            return f"{task.name} could assert or retract {shown_names}", f"let {task.name} do that first"
+            could = f"{task.name} could assert or retract facts of {shown_names}"
+            return could, f"let {task.name} do that first"
     for task in ended(alive):
         if asserts(task, names) and task.status is not SUCCEEDED:
             how = "has failed" if task.status is FAILED else "was aborted"
-            return f"{task.name}, which asserts or retracts {shown_names}, {how}", advice
-    return f"no task that is left asserts or retracts {shown_names} in its body", advice
+            return f"{task.name}, which asserts or retracts facts of {shown_names}, {how}", advice
+    return f"no task that is left asserts or retracts facts of {shown_names} in its body", advice
 
 
 def asserts(task: Task, names: Iterable[Symbol]) -> bool:

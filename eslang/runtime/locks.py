@@ -139,14 +139,13 @@ class PropertyLocks:
         claim, task = subscription.claim, subscription.task
         lock = claim.lock
         while not (subscription.is_met or subscription.is_over):
-            first = claim.first
             if lock.busy is task:
                 raise control_error(f"what achieves {claim.property.text} needs it")
             if claim.standing is WANTED:
-                if lock.busy is None and first is not None and first.task is task:
+                if lock.busy is None and self._is_to_achieve(subscription):
                     self._bring_about(subscription)
                     continue
-            elif lock.busy is None and self.keeper.holds_again(claim):
+            elif self.keeper.holds_again(claim):
                 subscription.is_met = claim.standing is ACHIEVED
                 continue
             failure = self._wait(subscription)
@@ -160,7 +159,7 @@ class PropertyLocks:
             self.keeper.suspect(claim)
         subscription.wait = wait = Wait(subscription.task, "achievement", claim.property.form)
         try:
-            self._refuse_circle(subscription)
+            self._open_circle(subscription)
             failure: Failure | None = self.scheduler.wait(wait)
             return failure
         finally:
@@ -203,7 +202,9 @@ class PropertyLocks:
             if each is not subscription:
                 self.fail(each, make())
         self.go_on(lock)
-        failures.signal(make(), continuable=True)
+        own = make()
+        own.origin = None  # it comes from this very task
+        failures.signal(own, continuable=True)
 
     def maker(
         self, cause: Keyword, claim: Claim, failure: Failure | None, origin: Task | None
@@ -288,46 +289,51 @@ class PropertyLocks:
         for claim in lock.claims:
             if claim.standing is VIOLATED:
                 self.keeper.suspect(claim)
-            elif claim.standing is WANTED and claim.first is not None and claim.first.wait is not None:
-                self.scheduler.end_wait(claim.first.wait, None)
-                return
+            elif claim.standing is WANTED:
+                for each in claim.subscriptions:
+                    if each.wait is not None and self._is_to_achieve(each):
+                        self.scheduler.end_wait(each.wait, None)
+                        return
 
     # --- circles -----------------------------------------------------------------
 
-    def _refuse_circle(self, subscription: Subscription) -> None:
-        """Fail with :deadlock if those for whom SUBSCRIPTION is to wait wait for its own task."""
-        pending, seen = self._awaited_for(subscription.claim), dict.fromkeys([subscription.task])
-        while pending:
-            task = pending.pop()
-            if task is subscription.task:
-                raise Failure(DEADLOCK, *[self._waiting(each) for each in seen])
-            if task not in seen:
-                seen[task] = None
-                pending += self._awaited(task)
+    def _is_to_achieve(self, subscription: Subscription) -> bool:
+        """True if it is for SUBSCRIPTION to achieve its claim: it is the first, or the first waits for it."""
+        first = subscription.claim.first
+        return first is not None and self.path(first.task, subscription.task) is not None
 
-    def _awaited_for(self, claim: Claim) -> list[Task]:
-        """Who is to act before anybody else can go on with CLAIM."""
-        task = claim.lock.busy or (claim.first.task if claim.first and claim.standing is WANTED else None)
-        return [task] if task is not None else []
+    def _open_circle(self, subscription: Subscription) -> None:
+        """If those for whom SUBSCRIPTION is to wait wait for it, let one of them achieve what it waits for.
 
-    def _awaited(self, task: Task) -> list[Task]:
-        """Those for whom TASK waits, as far as that is known."""
-        wait = task.wait
-        if wait is None or wait.done:
+        Fails with :deadlock if none can, since others are at work for all that: methods need one another.
+        """
+        claim = subscription.claim
+        task = claim.lock.busy
+        path = None if task is None else self.path(task, subscription.task)
+        if path is None:
+            return
+        for each in path:
+            if each.claim.lock.busy is None and each.claim.standing is WANTED and each.wait is not None:
+                self.scheduler.end_wait(each.wait, None)
+                return
+        raise Failure(DEADLOCK, *[waiting(each) for each in (subscription, *path)])
+
+    def path(self, task: Task, goal: Task, seen: dict[Task, None] | None = None) -> list[Subscription] | None:
+        """The subscriptions by way of which TASK waits for GOAL; None if it does not."""
+        seen = {} if seen is None else seen
+        if task is goal:
             return []
-        for each in self.subscriptions.get(task, ()):
-            if each.wait is wait:
-                return self._awaited_for(each.claim)
-        if wait.kind in ENDS:
-            others = [wait.of] if isinstance(wait.of, Task) else wait.of
-            return [other for other in others if other.status is None]
-        return []
-
-    def _waiting(self, task: Task) -> Value:
-        """TASK and what it waits for, as the arguments of :deadlock have them."""
-        wants = [each for each in self.subscriptions.get(task, ()) if each.wait is not None]
-        what = f"{wants[-1].claim.property.text} to be achieved" if wants else "others to end"
-        return lisp_list(String(task.name), String(what))
+        wait = task.wait
+        if task in seen or wait is None or wait.done:
+            return None
+        seen[task] = None
+        own = next((each for each in self.subscriptions.get(task, ()) if each.wait is wait), None)
+        claim = self.keeper.waiting.get(task) if own is None else own.claim
+        for other in ends(wait) if claim is None else awaited_for(claim):
+            path = self.path(other, goal, seen)
+            if path is not None:
+                return path if own is None else [own, *path]
+        return None
 
     # --- for those who look ------------------------------------------------------
 
@@ -344,6 +350,7 @@ class PropertyLocks:
             )
             for lock in self.locks.values()
             for each in lock.subscriptions
+            if each.task.status is None  # else it has gone with its thread
         ]
 
     def now(self) -> float:
@@ -357,3 +364,23 @@ class PropertyLocks:
             self.scheduler.lives.tell(
                 "lock", change=change, property=claim.property.form, of=task, owner=claim.lock.owner
             )
+
+
+def awaited_for(claim: Claim) -> list[Task]:
+    """Who is to act before anybody else can go on with CLAIM."""
+    if claim.lock.busy is not None:
+        return [claim.lock.busy]
+    return [claim.first.task] if claim.first is not None and claim.standing is WANTED else []
+
+
+def ends(wait: Wait) -> list[Task]:
+    """The tasks for whose ends WAIT is, those that are still to come."""
+    if wait.kind not in ENDS:
+        return []
+    return [task for task in ([wait.of] if isinstance(wait.of, Task) else wait.of) if task.status is None]
+
+
+def waiting(subscription: Subscription) -> Value:
+    """A task and what it waits for, as the arguments of :deadlock have them."""
+    what = f"{subscription.claim.property.text} to be achieved"
+    return lisp_list(String(subscription.task.name), String(what))

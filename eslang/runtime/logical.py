@@ -26,9 +26,8 @@ class Logical(NamedTuple):
 
     def within(self, bindings: dict[Symbol, Value], query: Any = None) -> Logical:
         """The same, with more BINDINGS in force, and the innermost QUERY if that is told."""
-        return Logical(
-            {**self.bindings, **bindings}, query or self.query, self.inquiry, self.circuit, self.learned
-        )
+        made = {**self.bindings, **bindings}, query or self.query, *self[2:]
+        return tuple.__new__(Logical, made)  # at each solution of a query: the short way
 
 
 NOTHING_BOUND = Logical({})

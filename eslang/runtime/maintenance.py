@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from eslang.base.failure import Failure
 from eslang.base.hints import Callable, Iterable
-from eslang.base.symbols import Keyword, Value
+from eslang.base.symbols import Keyword, Value, truth
 from eslang.runtime import failures
 from eslang.runtime.attempts import attempt
 from eslang.runtime.claims import (
@@ -22,6 +22,7 @@ from eslang.runtime.claims import (
     VIOLATED,
     Claim,
     Property,
+    Sight,
     Subscription,
     Violation,
     nothing,
@@ -29,19 +30,20 @@ from eslang.runtime.claims import (
 from eslang.runtime.events import Wait
 from eslang.runtime.locks import PropertyLocks
 from eslang.runtime.logical import NOTHING_BOUND
+from eslang.runtime.polls import CONDITION
 from eslang.runtime.scheduler import Scheduler
 from eslang.runtime.tasks import Task
 
 VIOLATION, UNRECOVERABLE = map(Keyword, ("MAINTAINED-PROPERTY-VIOLATION", "UNRECOVERABLE-PROPERTY-VIOLATION"))
-Observe = Callable[[Property, Callable[[], None]], tuple[bool, Callable[[], None]]]
+Observe = Callable[[Property, Callable[[], None]], Sight]
 
 
 class Maintenance:
     """Who sees to the properties that were achieved.
 
-    `observe(property, changed)` tells whether PROPERTY holds, and how to end the
-    watch that it begins: CHANGED is called when that may be no longer so, at once
-    if it may have changed while it was looked at.
+    `observe(property, changed)` looks at PROPERTY, and begins to watch it: CHANGED
+    is called when it may be no longer so, at once if it may have changed while it
+    was looked at. What is unsteady is looked at again after each step.
     """
 
     def __init__(self, locks: PropertyLocks, observe: Observe, recover: Callable[[Property], object]) -> None:
@@ -50,7 +52,9 @@ class Maintenance:
         self.observe = observe
         self.recover = recover
         self.suspects: dict[Claim, None] = {}  # what may not be as it was when it was looked at
+        self.unsteady: dict[Claim, None] = {}  # what may change without a word
         self.daemon: Task | None = None
+        self.waiting: dict[Task, Claim] = {}  # who waits for which recovery
 
     # --- watching ----------------------------------------------------------------
 
@@ -63,41 +67,49 @@ class Maintenance:
         """CLAIM is not maintained any more."""
         self.suspects.pop(claim, None)
         self._forget(claim)
+        if self.daemon is not None:
+            self.scheduler.make_ready(self.daemon)  # there may be nothing left for it
         self._end_violation(claim.violation, None)
 
     def look(self, claim: Claim) -> bool:
         """True if the property of CLAIM holds now; it is watched from then on. A failure counts as no."""
-        task, found = self.scheduler.at_work(), [False]
+        task = self.scheduler.at_work()
         self._forget(claim)
-        watch: list[Callable[[], None]] = []
-
-        def observe() -> None:
-            found[0], forget = self.observe(claim.property, lambda: self.suspect(claim))
-            watch.append(forget)
-
+        seen: list[Sight] = []
         task.dynamic.masked += 1
         try:
-            attempt(task, observe)
+            attempt(task, lambda: seen.append(self.observe(claim.property, lambda: self.suspect(claim))))
         finally:
             task.dynamic.masked -= 1
-        for forget in watch:
-            if claim.subscriptions:
-                self._forget(claim)
-                claim.forget = forget
-            else:
-                forget()
-        return found[0]
+        if not seen:
+            return False
+        if not claim.subscriptions:
+            seen[0].forget()
+            return seen[0].holds
+        self._forget(claim)
+        claim.forget = seen[0].forget
+        if seen[0].is_unsteady:
+            self.unsteady[claim] = None
+            self._rouse()
+        return seen[0].holds
 
     def _forget(self, claim: Claim) -> None:
         """Watch over CLAIM no more."""
+        self.unsteady.pop(claim, None)
         forget, claim.forget = claim.forget, nothing
         forget()
 
     def suspect(self, claim: Claim) -> None:
         """CLAIM may not be as it was: the daemon is to look."""
         self.suspects[claim] = None
-        if self.daemon is None:
+        self._rouse()
+
+    def _rouse(self) -> None:
+        """There is something for the daemon to do."""
+        if self.daemon is None or self.daemon.status is not None:
             self.daemon = self._start("maintain-properties", self._keep, self._daemon_ended)
+        else:
+            self.scheduler.make_ready(self.daemon)
 
     def _start(self, name: str, body: Callable[[], Value], on_end: Callable[[Task], None]) -> Task:
         """Start a task of the run that nobody waits for, and on which no task's bindings have a bearing."""
@@ -112,7 +124,9 @@ class Maintenance:
 
     def _keep(self) -> Value:
         """Look at what is suspect, until nothing is."""
-        while self.suspects:
+        while self.suspects or self.unsteady:
+            if not self.suspects:
+                self._wait_for_suspects()
             suspects, self.suspects = self.suspects, {}
             try:
                 self._see_to(suspects)
@@ -121,6 +135,23 @@ class Maintenance:
                 self.suspects = dict.fromkeys(left)
                 raise
         return None
+
+    def _wait_for_suspects(self) -> None:
+        """Look at what is unsteady after each step, until something is suspect."""
+        wait = Wait(
+            self.scheduler.at_work(), CONDITION, Keyword("MAINTAINED-PROPERTIES"), (), self._look_around
+        )
+        try:
+            self.scheduler.wait(wait)
+        finally:
+            self.scheduler.polls.forget(wait)
+
+    def _look_around(self) -> Value:
+        """True if something is suspect, what is unsteady looked at; or if nothing is left to be looked at."""
+        for claim in list(self.unsteady):
+            if claim in self.unsteady and self.look(claim) is (claim.standing is VIOLATED):
+                self.suspects[claim] = None
+        return truth(bool(self.suspects) or not self.unsteady)
 
     def _see_to(self, suspects: Iterable[Claim]) -> None:
         """Look at each of SUSPECTS, once; have those restored that are violated and still wanted."""
@@ -137,7 +168,9 @@ class Maintenance:
         if not claim.subscriptions or claim.standing not in (ACHIEVED, VIOLATED):
             return
         holds = self.look(claim)
-        if claim.standing is ACHIEVED and not holds:
+        if claim.standing is ACHIEVED and holds:
+            self.locks.meet(claim)
+        elif claim.standing is ACHIEVED:
             self.violate(claim)
         elif claim.standing is VIOLATED and holds:
             self.restore(claim)
@@ -151,9 +184,8 @@ class Maintenance:
     def _daemon_ended(self, task: Task) -> None:
         """The daemon has ended; another begins if there is something left for it."""
         self.daemon = None
-        left = next((claim for claim in self.suspects if claim.persists()), None)
-        if left is not None:
-            self.suspect(left)
+        if any(claim.persists() for claim in (*self.suspects, *self.unsteady)):
+            self._rouse()
 
     # --- violations --------------------------------------------------------------
 
@@ -198,7 +230,8 @@ class Maintenance:
         if violation is not None:
             violation.is_over, violation.failure = True, failure or violation.failure
             for wait in list(violation.waits):
-                self.scheduler.end_wait(wait, None)
+                if wait.task.status is None:  # else it has gone with its thread
+                    self.scheduler.end_wait(wait, None)
 
     # --- recovering --------------------------------------------------------------
 
@@ -245,29 +278,46 @@ class Maintenance:
     def call_off(self, claim: Claim) -> None:
         """Nobody is left who wants CLAIM to be restored."""
         claim.is_moot = True
-        if claim.recovery is not None:
+        if claim.recovery is not None and claim.recovery.status is None:
             self.scheduler.lives.abort(claim.recovery, "recovery")
+        else:  # it has gone with the thread that it lived in
+            claim.recovery = None
+            self.locks.remove(claim)
 
     # --- waiting for a recovery ----------------------------------------------------
 
     def wait_for_recovery(self, wanted: Property) -> None:
         """Wait until the violation of what is WANTED, which the current task was told of, is over.
 
-        Fails with :unrecoverable-property-violation if it was not restored.
+        Not if those who are to restore it need the task itself, as where it achieves
+        another value of the same property. Fails with :unrecoverable-property-violation
+        if it was not restored.
         """
         task = self.scheduler.at_work()
         claim, violation = self._violation_of(task, wanted)
         if claim is None or violation is None:
             return
         if not violation.is_over and not self.holds_again(claim):
-            wait = Wait(task, "recovery", wanted.form)
-            violation.waits[wait] = None
-            try:
-                self.scheduler.wait(wait)
-            finally:
-                del violation.waits[wait]
+            self._wait(task, claim, violation)
         if violation.failure is not None:
             failures.signal(violation.failure(), continuable=True)
+
+    def _wait(self, task: Task, claim: Claim, violation: Violation) -> None:
+        """Let TASK wait until VIOLATION, one of CLAIM, is over."""
+        busy = claim.lock.busy
+        if busy is not None and self.locks.path(busy, task) is not None:
+            return
+        wait = Wait(task, "recovery", claim.property.form)
+        if claim.standing is VIOLATED:
+            self.suspect(claim)
+        outer = self.waiting.get(task)
+        violation.waits[wait], self.waiting[task] = None, claim
+        try:
+            self.scheduler.wait(wait)
+        finally:
+            del violation.waits[wait], self.waiting[task]
+            if outer is not None:
+                self.waiting[task] = outer
 
     def _violation_of(self, task: Task, wanted: Property) -> tuple[Claim | None, Violation | None]:
         """The last violation of what is WANTED: the one that concerns TASK, if any does."""
@@ -282,9 +332,9 @@ class Maintenance:
 
     def holds_again(self, claim: Claim) -> bool:
         """True if CLAIM, which was achieved once, turns out to hold; it is restored, if it was violated."""
-        if claim.lock.busy is not None or not self.look(claim):
+        if claim.standing is RECOVERING or not self.look(claim):
             return False
-        if claim.standing is VIOLATED and claim.lock.busy is None:
+        if claim.standing is VIOLATED:
             self.restore(claim)
         return claim.standing is ACHIEVED
 

@@ -102,8 +102,10 @@ class FactTables:
     # --- one relation ------------------------------------------------------------
 
     def relation(self, name: Symbol) -> str:
-        """All that the relations called NAME hold."""
-        found = [named for named in self.relations() if named.name is name]
+        """All that the relations called NAME hold, or the one that the list of all calls so."""
+        relations = self.relations()
+        found = [named for named in relations if named.name is name]
+        found = found or [named for named in relations if str(named) == written(name)]
         if not found:
             return self.unknown(name)
         return "\n".join([self._relation(named) for named in sorted(found, key=lambda each: each.arity or 0)])

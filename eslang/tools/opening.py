@@ -75,6 +75,12 @@ class Opened:
         if clock not in ("real", "virtual"):
             raise Usage(f"`--clock` is `real` or `virtual`, not `{clock}`")
         seed = seed_of(chosen)
+        choices = None
+        if chosen.has("choices") or chosen.has("record-choices"):
+            from eslang.tools.choosing import choices_of
+
+            choices = choices_of(chosen)
+        self.chosen = chosen
         self.tracer = tracer_of(chosen, clock, seed)
         self.watch = watch_of(chosen)
         self.outlet = Outlet(self.watch or (sys.stderr if chosen.value("trace") == "-" else sys.stdout))
@@ -84,6 +90,7 @@ class Opened:
                 clock=clock,
                 output=self.outlet,
                 shuffle=chosen.has("shuffle"),
+                choices=choices,
                 listeners=[each for each in (self.tracer, self.watch) if each is not None],
                 facts=chosen.value("facts"),
             )
@@ -104,6 +111,10 @@ class Opened:
             self.interp.close()
         except Failure as failure:  # what the file of facts has not taken is lost
             sys.stderr.write(f"esl: {failure.arguments[0]}; the last changes are lost\n")
+        if self.chosen.has("record-choices"):
+            from eslang.tools.choosing import write_choices
+
+            write_choices(self.chosen, self.interp)
         if self.tracer is not None:
             self.tracer.close(self.interp.clock.now())
 

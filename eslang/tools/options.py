@@ -72,6 +72,8 @@ TRACE = Option("--trace", "FILE", "write the events of the run to FILE (see `esl
 WATCH = Option("--watch", None, "keep a live tree of the tasks at the bottom of the terminal")
 SHUFFLE = Option("--shuffle", None, "let ready tasks take turns in an order drawn from the seed")
 LIMIT = Option("--time-limit", "S", "end the run after S seconds of wall time (exit 124)")
+CHOICES = Option("--choices", "FILE", "who has the turn where more than one is ready: a task a line")
+RECORD = Option("--record-choices", "FILE", "write down who had the turn, for `--choices`")
 SCENARIO = Option("--scenario", "FILE", "what the world does to the plan, and when; may be repeated")
 FACTS = Option("--facts", "FILE", "begin with the facts in FILE, a database, and keep all facts there")
 EVAL = Option("-e", "FORM", "evaluate FORM and print its values; may be repeated")
@@ -88,7 +90,7 @@ TELLING = (
     Option("-o", "FILE", "write the page, or the format, to FILE (`-` is standard output)"),
 )
 
-_RUN = (SEED, SHUFFLE, CLOCK, QUIET, TRACE, LIMIT, SCENARIO, FACTS)
+_RUN = (SEED, SHUFFLE, CHOICES, RECORD, CLOCK, QUIET, TRACE, LIMIT, SCENARIO, FACTS)
 
 COMMANDS = {
     command.name: command

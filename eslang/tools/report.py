@@ -19,6 +19,7 @@ from eslang.base.spans import Source, Span
 from eslang.base.suggest import nearest
 from eslang.base.symbols import Symbol
 from eslang.runtime.story import Asked, Place, Story
+from eslang.tools.fact_hints import fact_hint
 from eslang.tools.names import known_names
 from eslang.tools.narrator import retries
 from eslang.tools.stacks import passed_on, stack_lines
@@ -55,7 +56,7 @@ def failure_report(failure: Failure, interp: Any = None, colour: bool = False) -
         return f"failure: {message}"
     label = Label(span_of(place), sentence_of(failure) or "raised here")
     notes = tuple(stack_lines(failure, interp))
-    hint = near_name(failure, interp)
+    hint = hint_for(failure, interp)
     return render(Diagnostic("failure", message, (label,), None, hint, notes, "failure"), colour)
 
 
@@ -74,15 +75,17 @@ def sentence_of(failure: Failure) -> str:
     return (words[0] if begins_with_name else words[0].lower()) + words[1:].rstrip(".")
 
 
-def near_name(failure: Failure, interp: Any) -> str | None:
-    """What may have been meant by a name that means nothing, as a hint."""
+def hint_for(failure: Failure, interp: Any) -> str | None:
+    """A hint: what may have been meant by a name that means nothing, or what a query needs."""
     if failure.cause not in (UNDEFINED_FUNCTION, UNBOUND_VARIABLE) or interp is None:
-        return None
+        return fact_hint(failure, interp)
     symbol = failure.values[0]
     if not isinstance(symbol, Symbol):
         return None
     if symbol.name.startswith("?") and failure.cause is UNBOUND_VARIABLE:
-        return f"write `#{symbol.name.lower()}` for what this logic variable is bound to"
+        return f"`#{symbol.name.lower()}` is its value, in a form that binds it (with-query-bindings, say)"
+    if failure.cause is UNDEFINED_FUNCTION and interp.is_relation(symbol):
+        return f"`{symbol.name.lower()}` is a relation: facts and queries that are data stand under a quote"
     package = package_with(symbol, interp)
     if package is not None:
         return (
@@ -105,7 +108,7 @@ def package_with(symbol: Symbol, interp: Any) -> str | None:
 def remark(failure: Failure, interp: Any) -> str:
     """One line for the prompt about a failure of the host, of which the papers tell nothing; else empty."""
     sentence = sentence_of(failure)
-    parts = [sentence, near_name(failure, interp), ":why tells more"]
+    parts = [sentence, hint_for(failure, interp), ":why tells more"]
     return "; " + "; ".join([part for part in parts if part]) if sentence else ""
 
 
@@ -134,7 +137,7 @@ def why(failure: Failure | None, interp: Any = None) -> str:
     lines[0] += f", in task {tasks[0]}" if tasks else ""
     if stages[0].report is not None:
         lines = [failure_report(failure, interp)]
-    lines += [text for text in (sentence_of(failure), near_name(failure, interp)) if text]
+    lines += [text for text in (sentence_of(failure), hint_for(failure, interp)) if text]
     for each, task in zip(stages, [*tasks, ""], strict=True):
         if each.story is not None:
             lines += asked_of(each.story, task if len(stages) > 1 else "", bool(tasks))

@@ -22,8 +22,8 @@ NAMELESS = "lambda"
 def passed_on(failure: Failure) -> list[Failure]:
     """FAILURE in each of the tasks that it went through: as it was raised, then as it was passed on."""
     found = [failure]
-    while found[-1].origin is not None and found[-1].origin.failure is not None:
-        found.append(found[-1].origin.failure)
+    while (origin := found[-1].origin) is not None and origin.failure not in (None, *found):
+        found.append(origin.failure)
     return found[::-1]
 
 

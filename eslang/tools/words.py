@@ -21,6 +21,7 @@ Type a form, and it is evaluated; its values are printed, one a line.
   :abort NAME   abort a task, with its cleanup procedures
   :facts        the relations of the database; :facts RELATION shows its facts,
                 :facts QUERY what a query finds
+  :locks        the property locks: who owns them, who waits, since when
   :help         this text
   :quit         end, and abort all tasks; so does Ctrl-D
   (doc NAME)    the signature and documentation of NAME
@@ -95,6 +96,16 @@ def tell_facts(conversation: Any, asked: Value) -> None:
         write("Say `:facts`, `:facts RELATION` or `:facts (RELATION ?X ...)`.\n")
 
 
+def tell_locks(conversation: Any, name: str) -> None:
+    """The property locks that tasks have, or wait for."""
+    from eslang.tools.columns import columns_of_terminal
+    from eslang.tools.lock_table import lock_table
+
+    locks = conversation.interp.locks
+    holdings = locks.holdings() if locks is not None else []
+    conversation.output.write(lock_table(holdings, columns_of_terminal()))
+
+
 def within(interp: Any, work: Callable[[], Any]) -> Any:
     """What WORK gives, which may call Lisp."""
     with interp.door():
@@ -118,6 +129,7 @@ WORDS = {
     Keyword("TASK"): Word(tell_task, takes_name=True),
     Keyword("ABORT"): Word(abort_task, takes_name=True),
     Keyword("FACTS"): Word(tell_facts, takes_form=True),
+    Keyword("LOCKS"): Word(tell_locks),
     Keyword("HELP"): Word(tell_help),
     Keyword("H"): Word(tell_help),
     Keyword("QUIT"): Word(leave),

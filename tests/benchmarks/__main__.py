@@ -8,7 +8,7 @@ from __future__ import annotations
 import platform
 import sys
 
-from tests.benchmarks import compute, crowds, facts, memory, reading, recovery, starting, tasks
+from tests.benchmarks import compute, crowds, facts, locks, memory, reading, recovery, starting, tasks
 from tests.benchmarks.measure import Row, measure
 
 ROOMS = {
@@ -16,6 +16,7 @@ ROOMS = {
     "recovery": recovery,
     "tasks": tasks,
     "crowds": crowds,
+    "locks": locks,
     "memory": memory,
     "facts": facts,
     "starting": starting,

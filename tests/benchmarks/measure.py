@@ -100,7 +100,10 @@ def repetitions(run: Run, clock: Callable[[], float]) -> int:
 
 
 def sample(run: Run, count: int, clock: Callable[[], float]) -> float:
-    """The seconds that one of COUNT calls of RUN takes."""
+    """The seconds that one of COUNT calls of RUN takes; who runs elsewhere tells it himself."""
+    elsewhere = getattr(run, "sample", None)
+    if elsewhere is not None:
+        return float(elsewhere(count))
     gc.collect()
     gc.disable()
     try:

@@ -27,26 +27,29 @@ class Schedule:
         self.choices.append((index, len(ready)))
         return index
 
-    def following(self) -> list[int]:
-        """The course behind this one: its last choice that can be another one is."""
-        choices = list(self.choices)
+    def following(self, depth: int) -> list[int]:
+        """The course behind this one: of its first DEPTH choices the last is another that can be."""
+        choices = self.choices[:depth]
         while choices and choices[-1][0] + 1 == choices[-1][1]:
             choices.pop()
         return [*[index for index, _ in choices[:-1]], choices[-1][0] + 1] if choices else []
 
 
-def every_schedule(plan: Plan, judge: Callable[[World], None], most: int) -> int:
-    """Run what PLAN makes of a world by every schedule, MOST at most; JUDGE looks. How many there were."""
+def every_schedule(plan: Plan, judge: Callable[[World], None], depth: int) -> int:
+    """Run what PLAN makes of a world by every schedule; JUDGE looks. How many there were.
+
+    After DEPTH choices the ready take turns: else a schedule might never let one have its turn.
+    """
     count, course = 0, [0]
     with Interpreter(clock="virtual", output=StringIO()) as interp:
-        while count < most and course:
+        while course:
             schedule = Schedule(course)
             world = judged(World(interp), schedule)
             world.run(**plan(world))
             judge(world)
             interp.hooks.listeners.clear()
             count += 1
-            course = schedule.following()
+            course = schedule.following(depth)
     return count
 
 
@@ -60,6 +63,8 @@ def judged(world: World, choose: Callable[[Sequence[Any]], int] | None) -> World
 def inspect(world: World, event: Any) -> None:
     """End the run if anything is as it must not be when EVENT is told."""
     found = wrongs(world) if event.kind in ("wait", "resume", "task-ended") else []
+    if event.kind == "deadlock":
+        found.append(f"everybody waits: {event.data['failure']}")
     if found:
         world.scheduler.ticks.stop(Stop("; ".join(found), 70))
 
@@ -76,7 +81,8 @@ def wrongs(world: World) -> list[str]:
         if any(each.task.status is not None for each in lock.subscriptions):
             found.append(f"a task that has ended is subscribed to {lock.key}")
         for claim in lock.claims:
-            noticed = claim in world.keeper.suspects and world.keeper.daemon is not None
+            seen = claim in world.keeper.suspects or claim in world.keeper.unsteady
+            noticed = seen and world.keeper.daemon is not None
             if claim.standing == "achieved" and not (world.holds(claim.property) or noticed):
                 found.append(f"nobody has noticed that {claim.property.text} is violated")
     return found

@@ -9,7 +9,7 @@ from typing import Any
 from eslang import Failure, Interpreter, Keyword
 from eslang.base.control import Abort
 from eslang.runtime import failures
-from eslang.runtime.claims import Property
+from eslang.runtime.claims import Property, Sight
 from eslang.runtime.failures import Clause, Form
 from eslang.runtime.maintenance import make_locks
 from eslang.runtime.tasks import Task
@@ -33,6 +33,7 @@ class World:
         self.values: dict[str, str] = {}
         self.watches: dict[str, dict[object, Callable[[], None]]] = {}
         self.methods: dict[str, Callable[[Property], object]] = {}
+        self.unsteady: set[str] = set()  # what nobody is told of when it changes
         self.recoveries: dict[str, Callable[[Property], object]] = {}
         self.lines: list[str] = []
         self.changes: list[str] = []  # what was told of locks
@@ -76,12 +77,14 @@ class World:
         """True if both values can be those of one property at once."""
         return one.value == other.value or ANY in (one.value, other.value)
 
-    def observe(self, one: Property, changed: Callable[[], None]) -> tuple[bool, Callable[[], None]]:
-        """Look, and watch."""
+    def observe(self, one: Property, changed: Callable[[], None]) -> Sight:
+        """Look, and watch, unless it is said of the property that it cannot be watched."""
         self.looks += 1
         mark = object()
+        if one.key in self.unsteady:
+            return Sight(self.holds(one), lambda: None, True)
         self.watches.setdefault(one.key, {})[mark] = changed
-        return self.holds(one), lambda: self.forget(one.key, mark)
+        return Sight(self.holds(one), lambda: self.forget(one.key, mark))
 
     def forget(self, key: str, mark: object) -> None:
         """Watch no more."""
@@ -199,6 +202,7 @@ class World:
             "subscriptions": self.locks.subscriptions,
             "watches": self.watches,
             "suspects": self.keeper.suspects,
+            "unsteady claims": self.keeper.unsteady,
             "daemon": self.keeper.daemon,
             "tasks": self.scheduler.lives.count,
             "waits": [task for task in self.tasks.values() if task.wait],

@@ -32,7 +32,7 @@ AGENT = Interpreter(clock="virtual")
 AGENT.eval("(defpackage :robot (:use :cl) (:shadow list)) (defpackage |odd one|)")
 IMAGE = AGENT.image
 RESOLVE = resolve_in(IMAGE)
-NAMES = UserNames(IMAGE.packages["ESL-USER"])
+NAMES = UserNames(IMAGE.packages)
 
 texts = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=6)
 pieces = st.sampled_from([*"ABZ019+-*/.:#|\\;'`,@()\" \n?eéßſ", "E5", "1.5", "NIL", "..", "1/2", "LIST", "T"])

@@ -9,7 +9,9 @@ import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 from worlds import (
+    ASKED,
     FACTS,
+    GOALS,
     GROUND,
     LEAF,
     QUERIES,
@@ -27,23 +29,32 @@ from worlds import (
 )
 
 from eslang.base.failure import Failure
+from eslang.base.lists import items
+from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import UNBOUND
 from eslang.facts.query import Facts
-from naive.queries import Bindings, Goal, Rule, Unsafe, World, key
+from naive.queries import Bindings, Goal, Rule, Unsafe, World, check_safe, key, variables, ways
 
 pytestmark = pytest.mark.slow
 LAW = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 
 @LAW
-@given(FACTS, st.lists(rules(), max_size=5), st.lists(QUERIES, min_size=1, max_size=4))
+@given(
+    FACTS,
+    st.lists(rules(), max_size=5),
+    st.lists(QUERIES, min_size=1, max_size=4),
+    st.sampled_from([1, 16]),
+)
 def test_a_query_answers_what_trying_everything_finds(
-    told: list[Goal], candidates: list[Rule], queries: list[Goal]
+    told: list[Goal], candidates: list[Rule], queries: list[Goal], many: int
 ) -> None:
     facts = database(told)
     world = World(told, taken(facts, candidates))
-    for query in queries:
-        check_answers(facts, world, query, {})
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("eslang.facts.steps.MANY", many)  # ways through ORs before they are joined
+        for query in queries:
+            check_answers(facts, world, query, {})
     event(f"rules {len(world.rules)}")
 
 
@@ -77,7 +88,14 @@ def check_answers(facts: Facts, world: World, query: Goal, bindings: Bindings) -
     assert solved(facts.solutions(asked, values)) == answers
     for first in (facts.first(asked, values), facts.ask(asked, values)[0]):
         assert (solved([first]) if first is not None else []) == answers[:1]
+    if not bindings:
+        assert solved(map(from_alist, items(facts.alists(asked, lambda whole: whole)))) == answers
     assert solved(facts.all(asked, values)) == answers
+
+
+def from_alist(alist: Value) -> dict[Symbol, Value]:
+    """A solution as Python has it."""
+    return {pair.car: pair.cdr for pair in items(alist)}
 
 
 def check_refused(facts: Facts, query: Goal, bindings: Bindings) -> None:
@@ -124,3 +142,31 @@ def test_a_pattern_finds_facts_in_the_order_of_their_assertion(told: list[Goal],
     assert facts.retract(lisp(pattern)) == len({key(fact) for fact in gone})
     left = [key(plain(fact)) for fact in facts.facts()]
     assert set(left) == {key(fact) for fact in told} - {key(fact) for fact in gone}
+
+
+@LAW
+@given(FACTS, st.lists(rules(), max_size=2), ASKED, GOALS)
+def test_a_rule_says_what_its_body_says(
+    told: list[Goal], candidates: list[Rule], before: Goal, body: Goal
+) -> None:
+    """Whatever is known already of what its head tells."""
+    names = variables(body)
+    written_out = ("and", before, body)
+    if any(missing(("and", before, *way[1:]), names) for way in ways(body)):
+        return
+    facts = database(told)
+    taken(facts, candidates)
+    expected = solved(facts.all(lisp(written_out)))
+    facts.define_rule(lisp(("h", *names)), lisp((body,)))
+    for query in (("and", before, ("h", *names)), ("and", ("h", *names), before)):
+        assert set(solved(facts.all(lisp(query)))) == set(expected)
+    event("answers" if expected else "no answers")
+
+
+def missing(conjunction: Goal, names: list[str]) -> bool:
+    """Whether no pattern in CONJUNCTION gives a value to some of NAMES, or a test or NOT needs one."""
+    try:
+        check_safe(conjunction)
+    except Unsafe:
+        return True
+    return not set(names) <= set(variables(conjunction))

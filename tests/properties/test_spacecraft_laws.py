@@ -39,6 +39,12 @@ steps = st.one_of(
 )
 
 
+@pytest.fixture(scope="module", autouse=True)
+def room() -> None:
+    """The first interpreter raises Python's limit of recursion, which no law may find changed."""
+    Interpreter().close()
+
+
 class Flight:
     """A spacecraft under commands, with its hidden hardware."""
 
@@ -63,6 +69,7 @@ class Flight:
         if kind == "pause":
             self.agent.eval(f"(sleep {what})")
         elif kind == "break":
+            how = ":stuck" if how == ":tripped" and what != ":neb1" else how  # only a bus trips
             self.agent.eval(f"(break-device {what} {how})")
         else:
             sent = self.hardware.now()
@@ -116,6 +123,7 @@ def test_what_is_mended_can_be_turned_on_and_operated(run: list[tuple[str, Any, 
     devices = list(flight.hardware.devices.values())
     for device in devices:
         flight.agent.eval(f"(break-device {device.name} :ok)")
+    for device in devices:
         flight.agent.eval(f"(send-command {device.name} :turn-off)")
     for name in (":neb1", ":bus_1553", ":gde", ":ega_x"):
         flight.agent.eval(f"(turn-device-on {name})")

@@ -9,9 +9,11 @@ import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
 from worlds import (
+    ASKED,
     ATOM,
     CHANGES,
     FACTS,
+    LEAF,
     QUERIES,
     RELATIONS,
     UPHEAVALS,
@@ -28,7 +30,7 @@ from eslang.base.failure import Failure
 from eslang.base.symbols import Symbol
 from eslang.facts.query import Facts
 from eslang.facts.watching import Change
-from naive.queries import Goal, Rule, World, key
+from naive.queries import Goal, Rule, World, key, variables
 
 pytestmark = pytest.mark.slow
 LAW = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -225,6 +227,55 @@ def test_what_changes_in_the_pauses_of_a_query_is_not_seen(
             changes = list(left)
     check_nothing_is_open(busy)
     assert not busy.pauses.left
+
+
+@LAW
+@given(
+    FACTS,
+    st.lists(rules(), max_size=4),
+    ASKED,
+    LEAF,
+    st.integers(1, 6),
+    st.sampled_from(["all", "first", "ask"]),
+)
+def test_a_test_that_fails_leaves_everything_as_it_was(
+    told: list[Goal], candidates: list[Rule], pattern: Goal, goal: Goal, calls: int, how: str
+) -> None:
+    names = variables(pattern)
+    query = lisp(("and", pattern, goal, *(("same", name, name) for name in names)))
+    facts = database(told)
+    taken(facts, candidates)
+    try:
+        expected = solved(facts.all(query))
+    except Failure:
+        return
+    left, ask = [calls], facts.call
+
+    def fail_once(name: Symbol, arguments: list[Any]) -> bool:
+        left[0] -= 1
+        if left[0] == 0:
+            raise ZeroDivisionError
+        return ask(name, arguments)
+
+    facts.call = fail_once
+    facts._forget_plans()
+    solutions, found = facts.solutions(query), []
+    while True:  # it goes on where it was
+        try:
+            found += solved([next(solutions)])
+        except ZeroDivisionError:
+            event("a solution failed")
+        except StopIteration:
+            break
+    assert found == expected
+    left[0] = calls
+    try:
+        getattr(facts, how)(query)
+    except ZeroDivisionError:
+        event("an answer failed")
+    left[0] = 0
+    assert solved(facts.all(query)) == expected
+    check_nothing_is_open(facts)
 
 
 def check_nothing_is_open(facts: Facts) -> None:

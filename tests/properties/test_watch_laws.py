@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
-from itertools import combinations
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, event, given, settings
 from hypothesis import strategies as st
-from worlds import CHANGES, FACTS, QUERIES, UPHEAVALS, change, database, lisp, rules, solved, taken
+from worlds import (
+    CHANGES,
+    FACTS,
+    QUERIES,
+    UPHEAVALS,
+    change,
+    database,
+    lisp,
+    looked_up,
+    rules,
+    solved,
+    taken,
+    was_read,
+)
 
 from eslang.base.failure import Failure
 from eslang.facts.query import Facts
-from eslang.facts.watching import Change, Reads, unwatch, watch
+from eslang.facts.watching import Change, unwatch, watch
 from naive.queries import Goal, Rule
 
 pytestmark = pytest.mark.slow
@@ -42,27 +54,6 @@ def test_who_watches_is_woken_if_and_only_if_what_was_read_has_changed(
         touched = [each for each in told_of if was_read(each, read)]
         assert [(each.added, each.row) for each in woken] == [(each.added, each.row) for each in touched[:1]]
     assert not any(relation.watched for relation in facts.relations.values())
-
-
-def looked_up(reads: Reads) -> set[Any]:
-    """What READS holds, in words that can be compared."""
-    return {
-        (relation.name, relation.arity, positions, repr(each))
-        for (relation, positions), keys in reads.keys.items()
-        for each in keys
-    }
-
-
-def was_read(told: Change, read: set[Any]) -> bool:
-    """Whether a look-up that is in READ finds what TOLD tells of."""
-    arity = len(told.row)
-    for size in range(arity + 1):
-        for positions in combinations(range(arity), size):
-            parts = tuple(told.row[place] for place in positions)
-            looked = None if not positions and arity else parts[0] if size == 1 and arity > 1 else parts
-            if (told.name, arity, positions, repr(looked)) in read:
-                return True
-    return False
 
 
 class Waiting:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import sqlite3
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -192,6 +193,17 @@ def test_a_call_within_an_asyncio_loop_is_written_when_it_has_ended(make: Make) 
     assert asyncio.run(go_on()) == ["(a 1)"]
 
 
+def test_what_other_threads_change_is_written_too(make: Make) -> None:
+    agent = make()
+    other = threading.Thread(target=agent.facts.add, args=("a", 1))
+    other.start()
+    other.join()
+    assert written(agent) == ["(a 1)"]
+    agent.primitive(name="learn", blocking=True)(lambda: agent.facts.add("a", 2))
+    agent.eval("(task-net (b (learn)) (c (assert '(c 1))))")
+    assert sorted(written(agent)) == ["(a 1)", "(a 2)", "(c 1)"]
+
+
 def test_an_update_is_whole_even_if_a_listener_waits_in_its_midst(make: Make) -> None:
     agent = make()
     agent.eval("(assert '(n 0)) (defun linger () (dotimes (i 3000)))")
@@ -282,6 +294,14 @@ def test_what_could_not_be_written_to_the_end_is_told_when_the_interpreter_close
     with pytest.raises(Failure, match="the disk is full"):
         agent.close()
     assert held(make()) == []
+
+
+def test_a_call_in_an_asyncio_loop_whose_changes_cannot_be_written_fails(make: Make) -> None:
+    agent = make()
+    disk = Full(agent)
+    with pytest.raises(Failure, match="the disk is full"):
+        asyncio.run(agent.call_async("assert", [Symbol("A"), 1]))
+    disk.full = False
 
 
 def test_a_change_from_python_that_cannot_be_written_fails(make: Make) -> None:

@@ -190,6 +190,12 @@ def test_a_change_tells_what_it_did(agent: Interpreter) -> None:
     assert len(facts) == 0
 
 
+def test_who_is_to_hear_of_changes_can_be_called(agent: Interpreter) -> None:
+    with pytest.raises(TypeError, match="each change, and 5 cannot be"):
+        agent.facts.subscribe(5)  # type: ignore[arg-type]
+    assert agent.facts.add("raining") is True
+
+
 def test_update_is_one_change(agent: Interpreter) -> None:
     facts = agent.facts
     facts.add_all(["(at cup table)", "(at cup shelf)"])
@@ -335,6 +341,9 @@ def test_a_query_may_call_lisp_which_may_wait(agent: Interpreter) -> None:
     agent.eval("(defun heavy-p (n) (sleep 1) (> n 4))")
     assert agent.facts.query("(and (load ?n) (heavy-p ?n))") == [{"n": 5}]
     assert agent.clock.now() == 2
+    agent.eval("(defun limit () (sleep 1) 4)")
+    assert agent.facts.query("(and (load ?n) (> ?n (limit)))") == [{"n": 5}]
+    assert agent.clock.now() == 4
 
 
 def test_what_a_query_calls_may_fail(agent: Interpreter) -> None:

@@ -170,3 +170,17 @@ def test_nothing_is_posted_to_an_interpreter_that_is_closed() -> None:
     with pytest.raises(Failure):
         agent.post(lambda: None)
     assert agent.scheduler.posted.empty()
+
+
+def test_a_lisp_function_is_posted_by_its_symbol(agent: Interpreter) -> None:
+    note = agent.symbol("note")
+    assert note is not None
+    agent.post(note, ["a", 1, None])
+    assert agent.eval("(progn (yield) *told*)") == [["a", 1, None]]
+
+
+def test_a_python_function_may_be_posted_with_arguments(agent: Interpreter) -> None:
+    seen: list[object] = []
+    agent.post(seen.append, 4)
+    agent.eval("(yield)")
+    assert seen == [4]

@@ -191,6 +191,36 @@ def test_a_file_that_another_program_reads_is_refused(path: str) -> None:
     assert len(content(path)) == 3
 
 
+FORKING = """
+import gc, os, sys
+from eslang import Interpreter
+path = sys.argv[1]
+agent = Interpreter(facts=path)
+agent.facts.add("a", 1)
+if os.fork() == 0:
+    if sys.argv[2] == "close":
+        agent.close()
+    agent = None
+    gc.collect()
+    sys.exit()
+os.wait()
+print(sorted(os.listdir(os.path.dirname(path))))
+agent.facts.add("a", 2)
+os._exit(0)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are made by fork")
+@pytest.mark.parametrize("way", ["close", "leave"])
+def test_a_child_made_by_fork_leaves_the_file_to_its_parent(path: str, way: str) -> None:
+    ended = subprocess.run(
+        [sys.executable, "-c", FORKING, path, way], cwd=ROOT, capture_output=True, text=True
+    )
+    assert (ended.stdout, ended.stderr) == ("['agent.db', 'agent.db-wal']\n", "")
+    assert [text for _, text in content(path)] == ["(a 1)", "(a 2)"]
+
+
 # --- damage ------------------------------------------------------------------------------------
 
 

@@ -12,9 +12,7 @@ from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.base.text import String
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.conditions import CONNECTIVES
 from eslang.constructs.queries import in_force
-from eslang.facts.unify import is_variable
 
 QUOTE = Symbol.intern("QUOTE", CL)
 DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE = (
@@ -32,7 +30,8 @@ def assert_fact(fact: Value) -> Value:
 
     Returns: FACT.
     Fails:   :type-error if FACT is no list that begins with a symbol;
-             :unbound-logic-variable if a variable stands in it.
+             :unbound-logic-variable if a variable stands in it;
+             :wrong-number-of-arguments if another number is declared.
 
     Example:
         ? (assert '(is-a w1 widget))
@@ -97,7 +96,8 @@ def db_query(query: Value) -> Value:
     Returns: a list of alists ((?VAR . VALUE)...), in the order of assertion;
              NIL if QUERY does not hold.
     Fails:   :unbound-logic-variable if a variable has no value where NOT or
-             a test needs one.
+             a test needs one; :unbounded-rules if rules might make ever
+             larger terms.
 
     Example:
         ? (progn (assert '(mass w1 3)) (assert '(mass w2 12)))
@@ -105,7 +105,7 @@ def db_query(query: Value) -> Value:
         ? (db-query '(and (mass ?x ?n) (> ?n 10)))
         (((?X . W2) (?N . 12)))
 
-    Source: ESL §5; ARM §2. Alists: language reference §5.
+    Source: ESL §5; ARM §2. Alists: language reference §5. Values: decision 26.
     """
     return running.session.database.alists(query, in_force)
 
@@ -122,7 +122,8 @@ def defrelation(form: Cons, environment: Any) -> Value:
     declared with several numbers.
 
     Returns: NAME.
-    Fails:   :type-error if NAME is no symbol, or AND, OR or NOT.
+    Fails:   :type-error if NAME is no symbol; or means something else in every
+             query: AND, OR, NOT, FUNCALL, comparisons.
 
     Example:
         ? (defrelation connected-to (thing other))
@@ -182,17 +183,19 @@ def _declare(name: Value, arguments: Value) -> None:
     """Let NAME be a relation with ARGUMENTS: a list of names, their number, or nothing."""
     if not isinstance(name, Symbol):
         raise type_error(name, "SYMBOL")
-    if name in CONNECTIVES or is_variable(name):
-        raise type_error(name, "RELATION")
     if arguments is None or arguments.__class__ is String:
         running.session.database.declare(name)
     elif arguments.__class__ is int and arguments >= 0:
         running.session.database.declare(name, arguments)
-    elif arguments.__class__ is Cons and all(isinstance(each, Symbol) for each in items(arguments)):
+    elif arguments.__class__ is Cons and all(map(_is_name, items(arguments))):
         names = tuple(items(arguments))
         running.session.database.declare(name, len(names), names)
     else:
         raise type_error(arguments, "LIST")
+
+
+def _is_name(argument: Value) -> bool:
+    return isinstance(argument, Symbol) and not argument.name.startswith("&")
 
 
 @macro("(defrule head &body body)", ESL)
@@ -201,13 +204,14 @@ def defrule(form: Cons, environment: Any) -> Value:
 
     Several rules may derive one relation, and a rule may ask what it derives:
     a question ends even if facts lead around in circles. The same rule again
-    changes nothing; FORGET-RULES takes rules back.
+    changes nothing; FORGET-RULES takes rules back. If BODY leaves a variable
+    without the value that HEAD, NOT or a test needs, and the question does not
+    give it either, asking fails with :unbound-logic-variable.
 
     Returns: the relation of HEAD.
     Fails:   :unstratified-rules, with the relations on the way around, if HEAD
-             would depend on its own absence;
-             :unbound-logic-variable if BODY leaves a variable without the
-             value that HEAD, NOT or a test needs.
+             would depend on its own absence; :type-error if HEAD or an element
+             of BODY is no query.
 
     Example:
         ? (defrule (reaches ?x ?y) (path ?x ?y))

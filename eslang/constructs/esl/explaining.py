@@ -18,6 +18,7 @@ STEPS = {
     "look-up": "look up",
     "scan": "go through all",
     "rules": "ask the rules",
+    "other rules": "ask the other rules",
     "test": "ask Lisp",
     "not": "unless",
     "or": "either",
@@ -89,7 +90,8 @@ def _more(step: Explained) -> str:
         return f"  by {_arguments(step.positions)}, {facts}"
     if step.kind in ("check", "scan"):
         return f"  {facts}"
-    return f"  by {_arguments(step.positions)}" if step.kind == "rules" and step.positions else ""
+    is_asked = step.kind in ("rules", "other rules") and step.positions
+    return f"  by {_arguments(step.positions)}" if is_asked else ""
 
 
 def _arguments(positions: tuple[int, ...]) -> str:
@@ -99,7 +101,8 @@ def _arguments(positions: tuple[int, ...]) -> str:
 
 def _rules(rules: ExplainedRules) -> Iterable[str]:
     known = f"by {_arguments(rules.positions)}" if rules.positions else "for all"
-    yield f"The rules of {rules.name}, {known}, are {KINDS[rules.kind]}:"
+    which = "other rules" if rules.is_direct else "rules"
+    yield f"The {which} of {rules.name}, {known}, are {KINDS[rules.kind]}:"
     for head, steps in rules.rules:
         yield f"  {prin1(head)}"
         yield from _steps(steps, "      ")

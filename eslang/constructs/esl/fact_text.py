@@ -162,9 +162,10 @@ class UserNames:
     that is not there yet.
     """
 
-    def __init__(self, user: Package) -> None:
+    def __init__(self, packages: dict[str, Package]) -> None:
+        self._packages = packages
         self._meant: dict[str, Symbol | None] = {"NIL": None}
-        for symbol in user.accessible():
+        for symbol in packages[USER].accessible():
             if symbol is not None:
                 self._meant[symbol.name] = symbol
 
@@ -180,9 +181,13 @@ class UserNames:
 
     def resolve(self, package: str | None, name: str, external_only: bool) -> Symbol | None:
         """The symbol that has this text."""
-        if package is not None:
-            return Symbol.intern(name, package)
-        return self._meant[name] if name in self._meant else Symbol.intern(name, USER)
+        if package is None and name in self._meant:
+            return self._meant[name]
+        home = package or USER
+        there = self._packages.get(home)
+        if there is not None and not there.find(name)[1]:
+            there.intern(name)
+        return Symbol.intern(name, home)
 
 
 class Scanner:

@@ -8,7 +8,13 @@ from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.conditions import instance_form, term_form, test_form
+from eslang.constructs.conditions import (
+    computed_once,
+    instance_form,
+    term_form,
+    test_form,
+    with_variables,
+)
 from eslang.runtime import failures
 from eslang.runtime.story import place_here
 
@@ -24,7 +30,8 @@ def to_achieve(form: Cons, environment: Any) -> Value:
 
     CONDITION is not evaluated. Variables in it, such as ?DEVICE, match
     anything; #?DEVICE is what it matched, in the methods. A later TO-ACHIEVE
-    for the same condition takes the place of the earlier.
+    for the same condition takes the place of the earlier, and what the library
+    knows is asked last.
 
     Returns: CONDITION.
 
@@ -72,6 +79,9 @@ def _then_true(forms: Value) -> Value:
 def achieve(form: Cons, environment: Any) -> Value:
     """Make CONDITION true, unless it is, by the first method that applies.
 
+    CONDITION is not evaluated; what has to be computed stands under a
+    backquote, as in (achieve `(at robot ,place)) or (achieve `,goal).
+
     Returns: NIL if CONDITION was true already, T if it was made true.
     Fails:   :no-applicable-method if there is no method, or no test is true;
              :condition-not-achieved if CONDITION is still false afterwards;
@@ -86,16 +96,17 @@ def achieve(form: Cons, environment: Any) -> Value:
 
     Source: ESL §3; causes: language reference §3.
     """
-    condition = form.cdr.car
+    condition, bindings = computed_once(form.cdr.car)
     test = lisp_list(LAMBDA, None, test_form(condition, environment))
     instance = lisp_list(LAMBDA, None, instance_form(condition, environment))
-    return lisp_list(ACHIEVE, term_form(condition), instance, test)
+    return with_variables(bindings, lisp_list(ACHIEVE, term_form(condition), instance, test))
 
 
 @function("(%define-goal pattern methods)", ESL)
 def define_goal(pattern: Value, methods: Value) -> Value:
     """Remember the methods of a condition."""
-    running.session.goals.define(pattern, methods)
+    session = running.session
+    session.goals.define(pattern, methods, is_library=not session.image.sealed)
     return pattern
 
 

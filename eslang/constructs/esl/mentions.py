@@ -50,6 +50,8 @@ class Mentions:
         self.questions: list[Question] = []
         self.rules: list[Question] = []
         self.arguments: dict[tuple[Symbol, int], Value] = {}  # their names, where they are declared
+        self.unquoted: list[tuple[Symbol, Span]] = []  # lists that are called where data is meant
+        self.variables: list[tuple[Mention, Mention]] = []  # in unquoted queries: the query, the variable
         self.is_strict = False  # DEFRELATION stands in it: relations are to be declared
         self.is_whole = is_whole  # nothing is asserted that does not show
         for use in uses:
@@ -58,6 +60,7 @@ class Mentions:
             elif use.kind == "call" and use.arguments is not None:
                 read = READERS.get(use.symbol)
                 if read is not None:
+                    self.note_unquoted(use)
                     read(self, use, [literal(node) for node in use.arguments])
 
     # --- what the constructs say ---------------------------------------------------
@@ -86,6 +89,8 @@ class Mentions:
     def hold(self, use: Use, given: list[Value]) -> None:
         """A condition."""
         self.note_query(CONDITION, use, given[0])
+        if use.scope.analyser.spans.of(use.form.cdr.car) is None:  # the program has no quote there
+            self.note_variables(use, given[0])
         self.questions.append(Question(given[0], use))
 
     def define_goal(self, use: Use, given: list[Value]) -> None:
@@ -121,6 +126,15 @@ class Mentions:
 
     # --- notes ---------------------------------------------------------------------
 
+    def note_unquoted(self, use: Use) -> None:
+        """The arguments of USE that are no data, but look like it."""
+        rest = use.form.cdr if use.symbol in TAKING_FACTS else None
+        while rest.__class__ is Cons:
+            part, rest = rest.car, rest.cdr
+            place = use.scope.analyser.spans.of(part)
+            if place is not None and isinstance(part.car, Symbol):
+                self.unquoted.append((part.car, place))
+
     def note_asserted(self, use: Use, fact: Value) -> None:
         """FACT is asserted."""
         if fact.__class__ is Cons and isinstance(fact.car, Symbol) and fact.car is not UNKNOWN:
@@ -132,6 +146,15 @@ class Mentions:
         """QUERY is asked."""
         for goal in goals_of(query):
             self.all.append(Mention(how, goal.car, length_of(goal.cdr), place_of(goal, use), use))
+
+    def note_variables(self, use: Use, query: Value) -> None:
+        """In QUERY, names stand for themselves that are names of variables there."""
+        for goal in goals_of(query):
+            asked = Mention(CONDITION, goal.car, length_of(goal.cdr), place_of(goal, use), use)
+            for part in parts_of(goal.cdr):
+                name = part.car
+                if name.__class__ is Symbol and any(name in frame.variables for frame in use.scope.frames()):
+                    self.variables.append((asked, Mention(CONDITION, name, None, place_of(part, use), use)))
 
 
 def goals_of(query: Value) -> Iterator[Cons]:
@@ -193,7 +216,7 @@ def literal(node: Node) -> Value:
     return UNKNOWN
 
 
-CALLS, DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE, DEFINE_GOAL, HOLDS, BINDINGS = (
+CALLS, DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE, DEFINE_GOAL, HOLDS, COMPUTED, BINDINGS = (
     Symbol.intern(name, ESL)
     for name in (
         "%CALLS-P",
@@ -202,6 +225,7 @@ CALLS, DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE, DEFINE_GOAL, HOLDS, BINDIN
         "%DEFINE-RULE",
         "%DEFINE-GOAL",
         "%HOLDS-P",
+        "%COMPUTED-CONDITION",
         "%CALL-WITH-QUERY-BINDINGS",
     )
 )
@@ -210,6 +234,7 @@ ASSERT, RETRACT, UPDATE, DB_QUERY, EXPLAIN_QUERY, LOAD_FACTS = (
     for name in ("ASSERT", "RETRACT", "UPDATE", "DB-QUERY", "EXPLAIN-QUERY", "LOAD-FACTS")
 )
 ASSERTING = (ASSERT, UPDATE)
+TAKING_FACTS = (ASSERT, RETRACT, UPDATE, DB_QUERY, EXPLAIN_QUERY, BINDINGS)
 READERS: dict[Symbol, Callable[[Mentions, Use, list[Any]], None]] = {
     ASSERT: Mentions.assert_fact,
     RETRACT: Mentions.retract,
@@ -218,6 +243,7 @@ READERS: dict[Symbol, Callable[[Mentions, Use, list[Any]], None]] = {
     EXPLAIN_QUERY: Mentions.ask,
     BINDINGS: Mentions.ask,
     HOLDS: Mentions.hold,
+    COMPUTED: Mentions.hold,
     DEFINE_GOAL: Mentions.define_goal,
     DEFINE_RELATION: Mentions.define_relation,
     DEFINE_PROPERTY: Mentions.define_relation,

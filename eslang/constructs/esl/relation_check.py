@@ -58,6 +58,17 @@ class RelationCheck(Judge):
         """Whether a condition with OPERATOR is a call: it names a function, and no relation."""
         return super().is_called(operator) and operator not in self.known
 
+    def told(self, diagnostic: Diagnostic, use: Use) -> Diagnostic | None:
+        """Where a fact or a query is not quoted, that is said, and nothing of the names in it."""
+        for operator, place in self.mentions.unquoted:
+            if use.span is not None and is_inside(use.span, place) and not self.is_operator(operator):
+                if use.symbol is not operator:
+                    return None
+                if operator in self.known or diagnostic.hint is None:
+                    hint = f"write `'({shown(operator)} …)` if a fact or a query is meant: these are data"
+                    return diagnostic._replace(hint=hint)
+        return diagnostic
+
     def verdicts(self) -> Iterator[Diagnostic]:
         """What is wrong with relations, rules and queries."""
         undeclared: set[Symbol] = set()
@@ -70,6 +81,7 @@ class RelationCheck(Judge):
                 undeclared.add(mention.name)
                 yield self.undeclared(mention)
         yield from self.ambiguous()
+        yield from self.variables()
         yield from QuestionCheck(self).verdicts()
 
     # --- names -------------------------------------------------------------------
@@ -87,7 +99,12 @@ class RelationCheck(Judge):
     def unknown(self, mention: Mention) -> Iterator[Diagnostic]:
         """Nothing declares, derives or asserts what is asked."""
         name, is_condition = mention.name, mention.how == CONDITION
-        if self.is_operator(name) or is_of_library(name):
+        if is_of_library(name):
+            return
+        if self.is_operator(name):
+            if not is_condition and not hasattr(self.image.cell(name), "function"):
+                what = f"there is no relation `{shown(name)}`, and a macro is no test"
+                yield warning("unknown-relation", what, mention, "put it into a function, and ask that")
             return
         known = [each.name for each in (*self.known, *filter(is_of_library, self.accessible()))]
         functions = [] if not is_condition else [s.name for s in self.accessible() if self.is_operator(s)]
@@ -124,6 +141,16 @@ class RelationCheck(Judge):
                     message += ", and which of them a condition means depends on when it is asked"
                     hint = f"write `(defrelation {shown(name)})` before, or give it another name"
                 yield warning("relation-and-function", message, (declared or mentions)[0], hint)
+
+    def variables(self) -> Iterator[Diagnostic]:
+        """Names of variables that stand for themselves, in queries that are conditions."""
+        for asked, mention in self.mentions.variables:
+            is_relation = asked.name in self.known or is_of_library(asked.name)
+            if is_relation and not self.is_called(asked.name):
+                name = shown(mention.name)
+                message = f"`{name}` stands for itself in a query, not for the variable"
+                hint = f"put the query under a backquote, and write `,{name}`"
+                yield warning("variable-in-query", message, mention, hint)
 
     # --- arities -----------------------------------------------------------------
 
@@ -240,6 +267,16 @@ def shows(term: Value) -> Value:
 def is_of_library(name: Symbol) -> bool:
     """Whether NAME is a word of the language, such as POWER-STATE: the devices may assert facts of it."""
     return name.package == ESL
+
+
+def is_inside(span: Span, place: Span) -> bool:
+    """Whether SPAN lies in PLACE."""
+    begins = (place.line, place.column) <= (span.line, span.column)
+    return (
+        span.source is place.source
+        and begins
+        and (span.end_line, span.end_column) <= (place.end_line, place.end_column)
+    )
 
 
 def counted(number: int) -> str:

@@ -15,7 +15,7 @@ from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.base.text import String
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.conditions import test_form
+from eslang.constructs.conditions import computed_once, test_form, with_variables
 from eslang.constructs.esl.tasks import LAMBDA, QUOTE, closure
 from eslang.constructs.shapes import refuse
 from eslang.constructs.watching import Look
@@ -23,9 +23,7 @@ from eslang.runtime import failures
 from eslang.runtime.guarding import run_until
 from eslang.runtime.periods import Periods
 
-DEADLINE, WAIT, WAIT_UNTIL, WHEN = (
-    Symbol.intern(name, ESL) for name in ("%CALL-WITH-DEADLINE", "%WAIT-UNTIL", "WAIT-UNTIL", "%WHEN")
-)
+DEADLINE, WAIT, WHEN = (Symbol.intern(name, ESL) for name in ("%CALL-WITH-DEADLINE", "%WAIT-UNTIL", "%WHEN"))
 LOOP, NOT = (Symbol.intern(name, CL) for name in ("LOOP", "NOT"))
 DEADLINE_EXPIRED, TIMEOUT = Keyword("DEADLINE-EXPIRED"), Keyword("TIMEOUT")
 LONGEST = 1e9  # seconds
@@ -112,9 +110,10 @@ def wait_until(form: Cons, environment: Any) -> Value:
     """Wait until CONDITION holds; not at all if it does.
 
     A condition over facts is looked at again when a fact that it rests on has
-    changed, and never else. One that calls Lisp is looked at again whenever
-    another task has made a step; if it calls a primitive, on the real clock,
-    also as time passes.
+    changed, and never else; comparisons of what facts say do not count as
+    calls. One that calls Lisp is looked at again whenever another task has
+    made a step; if it calls a primitive, on the real clock, also as time
+    passes. What stands under a backquote is computed once.
 
     Returns: T.
     Fails:   :timeout, with the number of seconds, if CONDITION does not hold
@@ -133,8 +132,9 @@ def wait_until(form: Cons, environment: Any) -> Value:
     Source: language reference §4 and 5; what wakes it: decision 19.
     """
     condition, options = form.cdr.car, form.cdr.cdr
-    test = closure(test_form(condition, environment))
-    return from_items([WAIT, lisp_list(QUOTE, condition), test], options)
+    asked, bindings = computed_once(condition)
+    test = closure(test_form(asked, environment))
+    return with_variables(bindings, from_items([WAIT, lisp_list(QUOTE, condition), test], options))
 
 
 @function("(%wait-until condition test &key timeout)", ESL)
@@ -165,7 +165,9 @@ def whenever(form: Cons, environment: Any) -> Value:
     """Run BODY each time that CONDITION becomes true, and now if it is true.
 
     In BODY, #?X is what the logic variable ?X of CONDITION was bound to. A
-    change that comes and goes while BODY runs is not seen. RETURN leaves.
+    change that comes and goes while BODY runs is not seen; and as long as
+    CONDITION stays true, with whatever values, BODY is not run again. To serve
+    all that there is, LOOP around WAIT-UNTIL. RETURN leaves.
 
     Returns: what RETURN gives.
     Fails:   as BODY does; :deadlock if nothing runs that could change CONDITION.
@@ -183,9 +185,11 @@ def whenever(form: Cons, environment: Any) -> Value:
     Source: language reference §4; what wakes it: decision 19.
     """
     condition, body = form.cdr.car, form.cdr.cdr
-    test = closure(test_form(condition, environment))
+    asked, bindings = computed_once(condition)
+    test, no_more = (closure(test_form(each, environment)) for each in (asked, lisp_list(NOT, asked)))
     when = lisp_list(WHEN, lisp_list(QUOTE, condition), test, from_items([LAMBDA, None], body))
-    return lisp_list(LOOP, when, lisp_list(WAIT_UNTIL, lisp_list(NOT, condition)))
+    until = lisp_list(WAIT, lisp_list(QUOTE, lisp_list(NOT, condition)), no_more)
+    return with_variables(bindings, lisp_list(LOOP, when, until))
 
 
 # --- periods -------------------------------------------------------------------------

@@ -27,7 +27,7 @@ def test_a_device_is_turned_on_by_its_switch_and_the_facts_say_so() -> None:
 
 
 def test_a_command_takes_the_latency_of_the_device_and_of_the_sensors() -> None:
-    with craft(LAMP + "(command-latency :lamp 2) (sensor-latency :bus 3)") as agent:
+    with craft(LAMP + "(command-latency :lamp 2) (sensor-latency :lamp 3) (sensor-latency :bus 50)") as agent:
         agent.eval("(turn-device-on :lamp)")
         assert agent.clock.now() == 5.0
 
@@ -234,6 +234,7 @@ def test_one_message_at_a_time_passes_a_bus() -> None:
         ("(turn-device-on :nothing-like-it)", (":UNKNOWN-DEVICE", ":NOTHING-LIKE-IT", "None")),
         ('(reset-device "lamp")', (":UNKNOWN-DEVICE", "lamp", "None")),
         ("(device-power-state '(a b))", (":UNKNOWN-DEVICE", "['A', 'B']", "None")),
+        ("(break-device :lamp :tripped)", (":UNKNOWN-HEALTH", ":TRIPPED", "None")),
         ("(send-command :lamp :turn-of)", (":UNKNOWN-COMMAND", ":TURN-OF", ":TURN-OFF")),
         (
             "(break-device :lamp :permanent-failur)",

@@ -6,7 +6,7 @@ import pytest
 
 from asking import LISP, Asking, bound, read, told
 from eslang.base.failure import Failure
-from eslang.base.lists import Cons
+from eslang.base.lists import Cons, from_items
 from eslang.base.printer import prin1
 from eslang.base.text import String
 from eslang.facts.goals import UNBOUND
@@ -225,6 +225,20 @@ def test_nobody_is_kept_waiting_for_a_snapshot_that_is_given_up() -> None:
         assert not any(relation.views for relation in facts.relations.values())
 
 
+def test_a_snapshot_that_ends_while_others_are_kept_does_not_disturb_them() -> None:
+    facts = Asking("(p 1)", "(p 2)")
+    (relation,) = facts.relations.values()
+    snapshots = [facts.solutions(read("(p ?x)")) for _ in range(3)]
+    first, second, _ = relation.views
+    keep = second.keep
+    dropped = type("Dropped", (), {"keep": lambda self, *change: (snapshots.pop(0).close(), keep(*change))})()
+    relation.views = {dropped: None, **relation.views}
+    facts.retract(read("(p 1)"))
+    del relation.views[dropped]
+    assert first not in relation.views
+    assert [[told(each) for each in snapshot] for snapshot in snapshots] == [["1", "2"]] * 2
+
+
 def test_queries_that_differ_in_constants_share_a_plan() -> None:
     facts = Asking(*DEVICES)
     for name in ("w1", "w2", "g1", '"x"', "(a b)"):
@@ -284,6 +298,18 @@ def test_a_fact_may_hold_more_lists_than_python_nests() -> None:
     assert facts.retract(read(pattern)) == 1
 
 
+def test_facts_hold_copies_and_answers_are_copies() -> None:
+    text, part = String("before"), read("(a b)")
+    facts = Asking()
+    facts.add(from_items([read("named"), text, part]))
+    text.text, part.car = "after", read("c")
+    (found,) = facts.all(read("(named ?n ?p)"))
+    assert told(found) == '"before" (A B)'
+    found[bound("?n")].text, found[bound("?p")].car = "later", read("d")
+    assert facts.held() == ['(NAMED "before" (A B))']
+    assert facts.answers('(named "before" (?x . ?_))') == ["A"]
+
+
 def test_an_explanation_tells_plan_and_indexes() -> None:
     facts = Asking(*DEVICES)
     explained = facts.explain(
@@ -300,3 +326,22 @@ def test_an_explanation_tells_plan_and_indexes() -> None:
         ("HEALTH-STATE", (1,)),
         ("IS-A", (0,)),
     ]
+
+
+@pytest.mark.parametrize("part", ["(or (p 2) {})", "(not {})", "(and (p 1) {})", "(or (p 2) (and (p 1) {}))"])
+def test_goals_deep_inside_one_another_are_planned_once_each(part: str) -> None:
+    facts, query = Asking("(p 1)"), "(p 1)"
+    for _ in range(40):
+        query = part.format(query)
+    assert facts.answers(query) == [""]
+    assert facts.answers(query.replace("(p 1)", "(p ?x)") if "not" not in part else query) != []
+
+
+def test_what_is_too_deep_for_a_query_is_a_failure() -> None:
+    term, goal, p, no = read("?x"), read("(p 1)"), read("p"), read("not")
+    for _ in range(2_000):
+        term, goal = Cons(term, None), Cons(no, Cons(goal, None))
+    for query in (Cons(p, Cons(term, None)), goal):
+        with pytest.raises(Failure) as caught:
+            Asking().all(query)
+        assert caught.value.cause.name == "STACK-EXHAUSTED"

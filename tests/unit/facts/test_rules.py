@@ -155,6 +155,30 @@ def test_terms_that_would_grow_for_ever_are_refused() -> None:
     assert facts.answers("(number (next (next one)))") == []
 
 
+def test_rules_may_be_told_a_term_that_the_question_makes() -> None:
+    facts = with_rules(
+        ("((big (mass ?n)) (> ?n 5))", "((heavy ?d) (level ?d ?n) (big (mass ?n)))"),
+        "(level a 3)",
+        "(level b 7)",
+    )
+    assert facts.answers("(and (level ?d ?n) (big (mass ?n)))") == ["B 7"]
+    assert facts.answers("(heavy ?d)") == ["B"]
+    assert facts.answers("(and (level ?d ?n) (not (big (mass ?n))))") == ["A 3"]
+    assert facts.answers("(and (level ?d ?n) (big (size ?n)))") == []
+
+
+def test_a_question_that_grows_and_comes_back_ends() -> None:
+    facts = with_rules(
+        ("((p ?x) (q ?x))", "((q ?x) (start ?x) (p (f ?x)))", "((q ?x) (end ?x))"),
+        "(start a)",
+        "(end (f a))",
+        "(start (f (f a)))",
+        "(end (f (f (f a))))",
+    )
+    assert facts.answers("(p a)") == [""]
+    assert sorted(facts.answers("(p ?x)")) == ["(F (F (F A)))", "(F (F A))", "(F A)", "A"]
+
+
 def test_rules_may_walk_down_a_list() -> None:
     facts = with_rules(
         ("((holds ?x (?x . ?_)))", "((holds ?x (?_ . ?rest)) (holds ?x ?rest))"), "(path p (a b c))"

@@ -129,30 +129,30 @@ CONDITIONS = {
     "nobody asserts the fact": (
         "(task-net (a (wait-until (power ega-x :on))) (b (sleep 1)))",
         "the condition (power ega-x :on)",
-        "no task that is left asserts or retracts power in its body",
+        "no task that is left asserts or retracts facts of power in its body",
     ),
     "who could assert it waits": (
         "(task-net (a (wait-until (power ega-x :on))) (b (wait-for-task a) (assert `(power ,1 :on))))",
         "the condition (power ega-x :on)",
-        "b could assert or retract power",
+        "b could assert or retract facts of power",
     ),
     "who would have asserted it has failed": (
         """(task-net :allow-failures (a (wait-until (power ega-x :on)))
              (b (fail :x) (update '(power ?x :off) (list 'power 'ega-x :on))))""",
         "the condition (power ega-x :on)",
-        "b, which asserts or retracts power, has failed",
+        "b, which asserts or retracts facts of power, has failed",
     ),
     "bindings have their values": (
         """(progn (assert '(is-a w1 widget))
              (with-query-bindings '(is-a ?w widget) (task-net (a (wait-until (power #?w :on))))))""",
         "the condition (power w1 :on)",
-        "no task that is left asserts or retracts power in its body",
+        "no task that is left asserts or retracts facts of power in its body",
     ),
     "what it is derived from counts, too": (
         """(progn (defrule (ready ?x) (power ?x :on) (not (busy ?x)))
              (task-net (a (wait-until (ready ?x))) (b (wait-for-task a) (retract '(busy arm)))))""",
         "the condition (ready ?x)",
-        "b could assert or retract ready or power or busy",
+        "b could assert or retract facts of ready or power or busy",
     ),
     "of a condition that asks Lisp nothing is known": (
         "(task-net (a (wait-until (or (power ega-x :on) (> 1 2)))))",

@@ -81,7 +81,7 @@ def test_a_change_while_the_daemon_looks_is_noticed() -> None:
     world = World()
     look, looks = world.observe, []
 
-    def slowly(one: Any, changed: Callable[[], None]) -> tuple[bool, Callable[[], None]]:
+    def slowly(one: Any, changed: Callable[[], None]) -> Any:
         looks.append(one)
         found = look(one, changed)
         if len(looks) == 2:
@@ -258,4 +258,4 @@ def test_no_schedule_of_a_small_plan_goes_wrong(plan: Any) -> None:
         for name, task in world.tasks.items():
             assert task.status is not None, name
 
-    assert every_schedule(plan, judge, most=600) > 50
+    assert every_schedule(plan, judge, depth=8) > 50

@@ -335,3 +335,28 @@ def test_a_listener_that_fails_leaves_no_lock_behind(world: World) -> None:
     world.interp.hooks.listeners.append(spoil)
     world.run(a=lambda: world.noting(lambda: world.maintain("p=1 q=1")))
     assert world.remains() == []
+
+
+def test_who_waits_for_the_owner_achieves_what_the_owner_waits_for_itself(world: World) -> None:
+    """C is the next owner of R, and waits for P; A achieves P, for which it needs R."""
+    world.methods["p"] = lambda one: (world.maintain("r=1"), world.switch(one))
+    lines = world.run(
+        b=world.hold("r=1"),
+        a=world.hold("p=1"),
+        c=world.hold("p=1 r=1"),
+        d=lambda: (world.sleep(0.5), world.abort("b")),
+    )
+    assert lines[1:3] == ["0.5 a: switch r=1", "1.5 a: switch p=1"]
+    assert lines[-1] == "2.5 c: done"
+
+
+def test_who_achieves_another_value_of_a_property_does_not_wait_for_its_recovery(world: World) -> None:
+    def flicker(one: object) -> None:
+        world.set("p", None)
+        world.give_way()
+        world.set("p", "2")
+
+    world.methods["p"] = flicker
+    world.values["p"] = "1"
+    lines = world.run(a=lambda: world.tolerating("p=? p=2", lambda: world.note("in")), b=world.give_way)
+    assert lines[-1].endswith("a: in")

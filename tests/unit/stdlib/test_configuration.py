@@ -169,3 +169,103 @@ def test_two_tasks_may_make_devices_ready_at_once(agent: Interpreter) -> None:
 
 def test_what_there_is_not_cannot_be_made_ready(agent: Interpreter) -> None:
     assert failure_of(agent, "(make-ready :ega_z)") == (":UNKNOWN-DEVICE", ":EGA_Z", ":EGA_X")
+
+
+# --- goals ---------------------------------------------------------------------------
+
+
+def test_the_states_of_a_device_are_goals_that_the_library_can_achieve(agent: Interpreter) -> None:
+    agent.eval("(progn (achieve (power-state :camera :on)) (break-device :bus_1553 :ok))")
+    assert state(agent, ":camera") == ":on"
+    agent.eval(
+        "(progn (break-device :camera :single-event-upset) (sleep 1) (achieve (health-state :camera :ok)))"
+    )
+    assert state(agent, ":camera", "health-state") == ":ok"
+    agent.eval("(achieve (power-state :camera :off))")
+    assert state(agent, ":camera") == ":off"
+
+
+def test_the_goal_of_a_device_may_be_a_variable(agent: Interpreter) -> None:
+    agent.eval("(with-query-bindings '(is-a ?device :camera) (achieve (power-state #?device :on)))")
+    assert state(agent, ":camera") == ":on"
+
+
+def test_what_a_program_says_of_a_goal_comes_before_what_the_library_knows(agent: Interpreter) -> None:
+    agent.eval("(to-achieve (power-state ?device ?state) (t (assert '(power-state #?device :mine))))")
+    assert failure_of(agent, "(achieve (power-state :camera :on))")[0] == ":CONDITION-NOT-ACHIEVED"
+    assert state(agent, ":camera") == ":mine"
+
+
+def test_a_program_may_take_the_place_of_what_the_library_knows(agent: Interpreter) -> None:
+    agent.eval("(to-achieve (power-state ?it :on) (t (print '#?it)))")
+    assert failure_of(agent, "(achieve (power-state :camera :on))")[0] == ":CONDITION-NOT-ACHIEVED"
+    agent.eval("(to-achieve (power-state ?that :on) (t (turn-device-on #?that)))")
+    assert agent.eval("(achieve (power-state :camera :on))") is True
+
+
+def test_of_what_is_no_device_the_library_knows_nothing(agent: Interpreter) -> None:
+    assert failure_of(agent, "(achieve (power-state lamp :on))")[0] == ":NO-APPLICABLE-METHOD"
+
+
+# --- ready as long as it is needed ---------------------------------------------------
+
+
+def test_a_device_is_ready_inside_and_its_components_are_locked(agent: Interpreter) -> None:
+    form = """(with-ready-device (actuator :ega_x)
+                (list actuator (device-ready-p actuator) (operate-device actuator)))"""
+    assert agent.eval(form) == [EGA_X, True, True]
+    wanted = agent.eval("(with-ready-device (camera :camera) (ready-properties camera))")
+    assert [str(each[0]).lower() for each in wanted] == [
+        "power-state",
+        "power-state",
+        "health-state",
+        "health-state",
+    ]
+
+
+def test_the_values_of_the_body_come_back(agent: Interpreter) -> None:
+    form = "(multiple-value-list (with-ready-device (camera :camera) (values 1 camera)))"
+    assert agent.eval(form) == [1, Keyword("CAMERA")]
+
+
+def test_what_cannot_be_made_ready_is_replaced(agent: Interpreter) -> None:
+    agent.eval("(break-device :ega_x :permanent-failure)")
+    assert agent.eval("(with-ready-device (actuator :ega_x) actuator)") is SPARE
+
+
+def test_if_nothing_can_be_made_ready_the_form_fails(agent: Interpreter) -> None:
+    agent.eval("(break-device :camera_sw :stuck)")
+    assert failure_of(agent, "(with-ready-device (camera :camera) camera)") == (":NOT-READY", ":CAMERA")
+
+
+def test_a_failure_of_the_body_is_no_reason_to_take_another_device(agent: Interpreter) -> None:
+    form = "(with-ready-device (actuator :ega_x) (fail :condition-not-achieved '(something else)))"
+    assert failure_of(agent, form)[0] == ":CONDITION-NOT-ACHIEVED"
+    assert state(agent, ":ega_x_spare") == ":off"
+
+
+def test_who_wants_the_contrary_does_not_get_its_lock(agent: Interpreter) -> None:
+    form = """(with-ready-device (camera :camera)
+                (with-maintained-properties ((power-state :bus_1553 :off)) nil))"""
+    assert failure_of(agent, form)[0] == ":PROPERTY-LOCK-UNAVAILABLE"
+
+
+def test_what_is_lost_inside_is_recovered_for_those_who_wait(agent: Interpreter) -> None:
+    agent.eval("(spawn (progn (sleep 5) (break-device :neb1 :tripped)))")
+    form = """(with-ready-device (actuator :ega_x)
+                (with-automatic-recoveries (sleep 20) (operate-device actuator)))"""
+    assert agent.eval(form) is True
+
+
+def test_what_is_lost_inside_is_a_failure_for_those_who_do_not(agent: Interpreter) -> None:
+    agent.eval("(spawn (progn (sleep 5) (turn-device-off :camera)))")
+    form = "(with-ready-device (camera :camera) (sleep 20) camera)"
+    assert failure_of(agent, form)[0] == ":MAINTAINED-PROPERTY-VIOLATION"
+
+
+def test_two_tasks_may_keep_the_same_device_ready(agent: Interpreter) -> None:
+    form = """(multiple-value-list
+                (task-net (a (with-ready-device (camera :camera) (sleep 5) camera))
+                          (b (with-ready-device (camera :camera) (sleep 9) (operate-device camera)))))"""
+    assert agent.eval(form) == [Keyword("CAMERA"), True]
+    assert sent(agent).count(":camera_sw :turn-on") == 1

@@ -12,6 +12,7 @@ from eslang.tools.transcript import example_of, replay
 def library_definitions() -> list[Definition]:
     """What stdlib/ defines under names that plans say, in their order."""
     with Interpreter() as agent:
+        agent.compiler("<test>")  # brings all of the library
         cells = list(agent.image.cells.items())
     found = [
         cell.definition

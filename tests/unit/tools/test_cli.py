@@ -261,6 +261,12 @@ def test_a_name_that_a_package_does_not_use_is_found_in_another(tmp_path: Path) 
     assert "let package `lab` use `esl`, where this name means something" in run("run", path).err
 
 
-def test_a_logic_variable_without_its_sign_gets_a_hint() -> None:
-    text = "(progn (to-achieve (at ?place) (t (print ?place))) (defun at (place) nil) (achieve (at 1)))"
-    assert "hint  write `#?place` for what this logic variable is bound to" in call(["run", "-e", text]).err
+@pytest.mark.parametrize(
+    "text",
+    [
+        "(progn (to-achieve (at ?place) (t (print ?place))) (defun at (place) nil) (achieve (at 1)))",
+        "(print #?place)",
+    ],
+)
+def test_a_logic_variable_that_is_unbound_gets_a_hint(text: str) -> None:
+    assert "hint  `#?place` is its value, in a form that binds it" in call(["run", "-e", text]).err

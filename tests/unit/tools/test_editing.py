@@ -48,7 +48,9 @@ def test_nothing_is_completed_where_no_name_is_typed(interp: Interpreter, text: 
     assert completions(interp, text) == {}
 
 
-@pytest.mark.parametrize("text", ["", "a", "(a)", "(a) (b)", ":facts (a ?x)", ":facts", ")", "(a))", "#<", "; x"])
+@pytest.mark.parametrize(
+    "text", ["", "a", "(a)", "(a) (b)", ":facts (a ?x)", ":facts", ")", "(a))", "#<", "; x"]
+)
 def test_what_is_complete_or_wrong_is_answered_at_once(interp: Interpreter, text: str) -> None:
     assert is_complete(interp, text)
 

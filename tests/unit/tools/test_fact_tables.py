@@ -86,6 +86,14 @@ def test_each_arity_of_a_name_has_its_own_table() -> None:
     assert found == 'note/1: 1 fact\nplain\n\nnote/2: 1 fact\n"lamp"  (on 2)\n'
 
 
+def test_a_relation_may_be_called_as_the_list_of_all_has_it() -> None:
+    found = said("(assert '(note plain))", ":facts note/1", ":facts note/3")[1:]
+    assert found == [
+        "note/1: 1 fact\nplain\n",
+        "There is no relation `note/3`; the nearest name is `note`.\n",
+    ]
+
+
 def test_what_had_facts_once_is_still_known() -> None:
     assert said("(retract '(note ?x ?y))", ":facts note")[1] == "note: no facts\n"
 

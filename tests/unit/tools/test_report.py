@@ -120,3 +120,11 @@ def test_report(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     Path("plan.esl").write_text(plan)
     code, _, err = call(["run", "--quiet", "--clock", "virtual", "plan.esl"])
     assert (code, err) == (1, report)
+
+
+def test_the_owner_of_a_lock_that_cannot_achieve_it_is_told_of_once() -> None:
+    ended = call(
+        ["run", "-e", "(defproperty lamp)", "-e", "(spawn (with-maintained-properties ((lamp :on)) 1))"]
+    )
+    assert ended.code == 1
+    assert ended.err.count("in task with-maintained-properties") == 1

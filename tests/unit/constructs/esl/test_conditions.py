@@ -35,6 +35,7 @@ def holds(condition: str, before: str = "") -> bool:
 
 FACTS = """
 (assert '(a 1)) (assert '(a 2)) (assert '(b 2)) (assert '(reading left 20)) (assert '(reading right 80))
+(assert '(at robot (3 4)))
 (defrelation c)
 (defvar *limit* 50)
 (defun two () 2)
@@ -64,6 +65,13 @@ FACTS = """
         ("(and (a ?x) (not (b ?x)))", True),
         ("(and (not (b ?x)) (a ?x))", True),
         ("(and (a ?x) (or (b ?x) (c ?x)))", True),
+        ("(and (a ?x) (or '(b 1) (c ?x)))", False),
+        ("(and (a ?x) (or '(b 2) (c ?x)))", True),
+        ("(at robot (3 4))", True),
+        ("(at robot (3 ?y))", True),
+        ("(at robot (4 ?y))", False),
+        ("(at robot (4 . 3))", False),
+        ("(and (a ?x) (at robot (?x ?y)))", False),
         ("(and (a 1) (a 2) (> 3 2))", True),
         ("(and (a 1) (> 2 3))", False),
         ("(or (a 7) (and (a ?x) (b ?x)))", True),
@@ -152,6 +160,43 @@ def test_a_marked_variable_in_a_condition_is_its_binding() -> None:
     assert lines_of(text) == ["HALL", "ATTIC", ":DARK"]
 
 
+def test_a_condition_may_be_the_binding_of_a_variable() -> None:
+    text = """
+    (assert '(wanted (lit hall)))
+    (spawn (progn (sleep 1) (assert '(lit hall))))
+    (with-query-bindings '(wanted ?goal)
+      (wait-until (not #?goal))
+      (print :dark)
+      (wait-until (and #?goal (lit ?room)))
+      (print (db-query '(lit ?room))))
+    """
+    assert lines_of(text) == [":DARK", "(((?ROOM . HALL)))"]
+
+
+def test_a_binding_stands_for_its_value_in_a_quoted_condition_too() -> None:
+    text = """
+    (assert '(wanted hall))
+    (to-achieve (lit ?room) (t (assert '(lit #?room))))
+    (spawn (progn (sleep 1) (assert '(dark hall))))
+    (with-query-bindings '(wanted ?room)
+      (wait-until '(dark #?room))
+      (wait-until (and '(dark #?room) (not '(lit #?room))))
+      (achieve '(lit #?room))
+      (print (db-query '(lit ?x))))
+    """
+    assert lines_of(text) == ["(((?X . HALL)))"]
+    assert came_to("(wait-until '(dark #?room))") == ":UNBOUND-VARIABLE ?ROOM"
+
+
+def test_a_condition_with_a_function_that_is_not_yet_defined_is_a_call_later() -> None:
+    text = """
+    (defun look () (achieve (big (let ((y 2)) (+ y 1)))))
+    (defun big (x) (print x))
+    (print (look))
+    """
+    assert lines_of(text) == ["3", "NIL"]
+
+
 @pytest.mark.parametrize(
     ("form", "failure"),
     [
@@ -161,6 +206,8 @@ def test_a_marked_variable_in_a_condition_is_its_binding() -> None:
         ("(wait-until (and (a ?x) (> ?y 1)))", ":UNBOUND-LOGIC-VARIABLE ?Y"),
         ("(wait-until (and (a ?x) (fail :sensor-dead ?x)))", ":SENSOR-DEAD 1"),
         ("(wait-until (c #?x))", ":UNBOUND-VARIABLE ?X"),
+        ("(with-query-bindings '(a ?x) (wait-until #?x))", ":TYPE-ERROR 1 LIST"),
+        ("(wait-until (at robot . 3))", ":TYPE-ERROR"),
         ("(wait-until (and (a ?x) (c #?x)))", ":UNBOUND-VARIABLE ?X"),
         ("(wait-until `(c ,(fail :no-place)))", ":NO-PLACE"),
         ("(whenever '5 1)", ":TYPE-ERROR 5 LIST"),

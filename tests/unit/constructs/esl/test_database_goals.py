@@ -87,3 +87,23 @@ def test_a_method_may_have_subgoals_and_alternatives_from_the_database() -> None
     (print (achieve (lit hall)))
     """
     assert lines_of(text) == ["L2", "T"]
+
+
+def test_goals_may_be_made_of_goals() -> None:
+    text = f"""
+    {POWER}
+    (to-achieve (and ?first ?second) (t (achieve #?first) (achieve #?second)))
+    (print (achieve (and (power-state a :on) (power-state b :on))))
+    (print (achieve (and (power-state a :on) (power-state b :on))))
+    """
+    assert lines_of(text) == ["(A :ON)", "(B :ON)", "T", "NIL"]
+
+
+def test_a_goal_in_a_variable_is_put_in_by_a_backquote() -> None:
+    text = f"""
+    {POWER}
+    (to-achieve (and . ?goals) (t (dolist (goal #?goals) (achieve `,goal))))
+    (print (achieve (and (power-state a :on) (power-state b :on))))
+    (let ((goal '(power-state a :off))) (print (achieve `,goal)))
+    """
+    assert lines_of(text) == ["(A :ON)", "(B :ON)", "T", "(A :OFF)", "T"]

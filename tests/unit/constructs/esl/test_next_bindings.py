@@ -280,3 +280,54 @@ def test_unwind_protect_is_done_on_every_jump() -> None:
         (print #?x)))
     """
     assert lines_of(text) == ["0", "1", "2"]
+
+
+# --- what stands around the rounds ---------------------------------------------------
+
+
+def test_a_deadline_inside_is_set_anew_in_each_round_and_one_outside_is_not() -> None:
+    round_trip = "(sleep 2) (print #?x) (when (< #?x 2) (next-bindings))"
+    inside = f"{NUMBERS} (with-query-bindings '(n ?x) (with-deadline (3) {round_trip}))"
+    outside = f"{NUMBERS} (with-deadline (3) (with-query-bindings '(n ?x) {round_trip}))"
+    assert came_to(inside) == (["0", "1", "2"], "no failure")
+    printed, failure = came_to(outside)
+    assert (printed, failure.split()[0]) == (["0"], ":DEADLINE-EXPIRED")
+
+
+def test_a_guardian_inside_guards_each_round_anew() -> None:
+    text = f"""
+    {NUMBERS}
+    (with-query-bindings '(n ?x)
+      (with-guardian (wait-until (stop #?x)) (print (list :stopped #?x))
+        (sleep 1)
+        (assert '(stop #?x))
+        (sleep 1)
+        (when (< #?x 1) (next-bindings))))
+    """
+    assert came_to(text) == (["(:STOPPED 0)", "(:STOPPED 1)"], "no failure")
+
+
+def test_a_net_that_fails_is_answered_by_the_task_that_runs_it() -> None:
+    text = f"""
+    {NUMBERS}
+    (with-query-bindings '(n ?x)
+      (with-recovery-procedures ((:small (next-bindings)))
+        (task-net
+          (judge (sleep 1) (when (< #?x 2) (fail :small)))
+          (clerk (with-cleanup-procedure (print (list :drop #?x)) (sleep 2) (print (list :file #?x)))))))
+    """
+    assert came_to(text) == (["(:DROP 0)", "(:DROP 1)", "(:FILE 2)"], "no failure")
+
+
+def test_what_an_interrupt_enters_leaves_the_bindings_of_the_task_alone() -> None:
+    text = f"""
+    {NUMBERS} {TOOLS}
+    (let ((task (spawn (with-query-bindings '(n ?x) (sleep 5) (print #?x)))))
+      (sleep 1)
+      (interrupt-task task (lambda ()
+                             (with-query-bindings '(tool ?x)
+                               (print #?x)
+                               (when (eq #?x 'saw) (next-bindings)))))
+      (wait-for-task task))
+    """
+    assert came_to(text) == (["SAW", "DRILL", "0"], "no failure")

@@ -46,9 +46,14 @@ def test_a_wrong_query_or_a_wrong_place_is_a_failure_that_names_it(form: str, fa
     assert came_to(form) == ([], failure)
 
 
-def test_a_keyword_alone_is_the_body() -> None:
-    text = f"{NUMBERS} (print (with-query-bindings '(n ?x) :inherit-bindings))"
-    assert lines_of(text) == [":INHERIT-BINDINGS"]
+def test_a_body_may_be_empty_or_a_keyword() -> None:
+    text = f"""
+    {NUMBERS}
+    (print (with-query-bindings '(n ?x)))
+    (print (with-query-bindings '(n ?x) :inherit-bindings))
+    (print (with-query-bindings '(n ?x) :found))
+    """
+    assert lines_of(text) == ["NIL", "NIL", ":FOUND"]
 
 
 def test_the_values_of_the_body_are_those_of_the_form() -> None:

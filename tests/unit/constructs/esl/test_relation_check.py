@@ -48,6 +48,13 @@ QUIET = {
     "a fact that an update brings": "(update '(on ?x) '(on 3)) (db-query '(on ?x))",
     "words of the language, which devices assert": "(wait-until (power-state ega_x :on))",
     "a property is no promise to declare everything": "(defproperty on) (assert '(of a)) (db-query '(of ?x))",
+    "a variable in a backquoted query": "(assert '(on 1)) (defun f (x) (wait-until `(on ,x)))",
+    "a word in a quoted query": "(assert '(on lamp)) (defun f (lamp) (wait-until '(on lamp)) lamp)",
+    "a variable in a call": "(assert '(on 1)) (defun f (x) (wait-until (and (on ?y) (> ?y x) (oddp x))))",
+    "a variable in a marked place": (
+        "(assert '(on 1)) (defun f (x) (with-query-bindings '(on ?x) (wait-until (on #?x))) x)"
+    ),
+    "a macro in a condition": "(assert '(on 1)) (wait-until (and (on ?x) (when (> ?x 0) t)))",
     "tests in a query": "(assert '(on 1)) (db-query '(and (on ?x) (oddp ?x) (> (+ ?x 1) 1)))",
     "a condition that is a call": "(defvar *up* nil) (wait-until (eq *up* t))",
     "a condition whose arguments are names": "(assert '(on lamp)) (wait-until (on lamp))",
@@ -70,6 +77,19 @@ QUIET = {
 }
 SAID = {
     "a query of what nothing asserts": ("(db-query '(on ?x))", [("unknown-relation", "on")]),
+    "a variable in a query that is a condition": (
+        "(assert '(on 1)) (defun f (x) (wait-until (on x)) (achieve (and (not (on x)) (on (lamp x)))))",
+        [("variable-in-query", "x"), ("variable-in-query", "x"), ("variable-in-query", "x")],
+    ),
+    "a fact that is not quoted, once": ("(assert (on lamp ?x))", [("unknown-function", "on")]),
+    "a query that is not quoted, once": (
+        "(assert '(on lamp)) (with-query-bindings (on ?x) (db-query (on ?x)) #?x)",
+        [("unknown-function", "on"), ("unknown-function", "on")],
+    ),
+    "a macro that is meant as a test": (
+        "(assert '(on 1)) (db-query '(and (on ?x) (when (> ?x 0) t)))",
+        [("unknown-relation", "when")],
+    ),
     "what is retracted is asked for": ("(retract '(on ?x))", [("unknown-relation", "on")]),
     "a relation in a rule": (
         "(assert '(of a)) (defrule (on ?x) (or (of ?x) (oof ?x)))",

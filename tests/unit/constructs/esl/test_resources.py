@@ -58,7 +58,8 @@ def test_who_is_less_important_gives_way_with_its_cleanup() -> None:
 
 def test_only_as_many_give_way_as_it_takes_the_least_important_and_latest_first() -> None:
     text = """
-    (task-net (a (use :a 30 9)) (b (sleep 0.5) (use :b 30 9)) (c (use :c 40 9 1)) (d (sleep 2) (use :d 25 1 5)))
+    (task-net (a (use :a 30 9)) (b (sleep 0.5) (use :b 30 9)) (c (use :c 40 9 1))
+              (d (sleep 2) (use :d 25 1 5)))
     """
     assert [line for line in lines_of(WORLD + text) if "GAVE-WAY" in line] == ["(:B :GAVE-WAY 2)"]
 

@@ -93,6 +93,44 @@ def test_a_condition_is_asked_again_when_what_it_rests_on_has_changed(
     assert (asked.lines, asked.count) == ([":WOKEN"], count)
 
 
+STEADY = """
+(defvar *limit* 15)
+(defun big (x) (> x 15))
+(defrule (high ?x) (n ?x) (> ?x 15))
+(assert '(n 1))
+"""
+
+
+@pytest.mark.parametrize(
+    ("condition", "count"),
+    [
+        ("(and (n ?x) (> ?x 15))", 2),
+        ("'(and (n ?x) (> ?x 15))", 2),
+        ("(high ?x)", 2),
+        ("(and (n ?x) (not (< ?x 15)))", 2),
+        ("(and (n ?x) (eql ?x '20))", 2),
+        ("(and (n ?x) (member ?x '(20 30)))", 2),
+        ("'(and (n ?x) (> ?x (+ 5 10)))", 2),
+        ("(and (n ?x) (not (= ?x 1)) (big ?x))", 2),  # BIG was not asked before there was another N
+        # what these ask may change at any step
+        ("(and (n ?x) (> ?x *limit*))", 8),
+        ("'(and (n ?x) (> ?x *limit*))", 8),
+        ("(and (n ?x) (big ?x))", 8),
+        ("'(and (n ?x) (member ?x '(20) :test 'same))", 8),
+    ],
+)
+def test_a_comparison_does_not_ask_lisp(condition: str, count: int) -> None:
+    text = f"""
+    {STEADY}
+    (defun same (a b) (= a b))
+    (task-net
+      (waiter (wait-until {condition}) (print :woken))
+      (world {MOVES} (sleep 1) (assert '(n 20))))
+    """
+    asked = Questions(text)
+    assert (asked.lines, asked.count) == ([":WOKEN"], count)
+
+
 def test_of_many_waiting_tasks_only_the_one_concerned_asks_again() -> None:
     text = """
     (let ((tasks (loop for i from 0 below 100
@@ -143,3 +181,49 @@ def test_parts_without_variables_are_asked_before_the_others() -> None:
     (print (reverse *order*))
     """
     assert lines_of(text) == ["(:READY 1)"]
+
+
+def test_what_changes_while_a_test_of_the_condition_waits_is_not_lost() -> None:
+    text = """
+    (defun slow-p (x) (sleep 1) t)
+    (assert '(cup 1)) (assert '(cup 2))
+    (spawn (progn (sleep 3.5) (assert '(clean 2))))
+    (sleep 1)
+    (print (wait-until (and (cup ?x) (slow-p ?x) (clean ?x)) :timeout 100))
+    """
+    asked = Questions(text)
+    assert asked.lines == ["T"]
+    assert asked.count < 6
+
+
+def test_parts_of_a_condition_that_are_true_one_after_the_other_are_not_true(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("eslang.facts.views.SLICE", 1)  # queries give way after every row
+    text = """
+    (dotimes (i 20) (assert (list 'row i)))
+    (assert '(last 19)) (assert '(on a))
+    (spawn (progn (wait-until '(begin)) (sleep 0) (update '(on ?_) '(on b))) :daemon t)
+    (spawn (progn (sleep 1) (assert '(begin))) :daemon t)
+    (print (with-recovery-procedures (:timeout (abort :never))
+      (wait-until (and (begin) '(and (on a) (row ?y) (last ?y)) (on b)) :timeout 100)))
+    """
+    assert lines_of(text)[-1] == ":NEVER"
+
+
+def test_what_stands_under_a_backquote_is_computed_once() -> None:
+    text = """
+    (defvar *computed* 0)
+    (defun which () (incf *computed*) 3)
+    (spawn (dotimes (i 5) (sleep 1) (assert `(at cup ,i))))
+    (wait-until (and `(at cup ,(which)) (not `(at cup ,(1+ (which))))))
+    (print *computed*)
+    (whenever `(at cup ,(1+ (which))) (return))
+    (print *computed*)
+    (to-achieve (lit ?n) (t (assert '(lit #?n))))
+    (achieve `(lit ,(which)))
+    (print *computed*)
+    """
+    asked = Questions(text)
+    assert asked.lines == ["2", "3", "4"]
+    assert asked.count < 10
