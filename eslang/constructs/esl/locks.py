@@ -17,7 +17,7 @@ from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.registry import ESL, function, macro, variable
 from eslang.constructs.esl.clauses import refuse
-from eslang.constructs.esl.conditions import holds_p, is_written, term_form
+from eslang.constructs.esl.conditions import CONNECTIVES, holds_p, is_written, term_form
 from eslang.constructs.esl.tasks import LAMBDA, LIST
 from eslang.constructs.esl.watching import Inquiry
 from eslang.facts.unify import is_variable, unifiable
@@ -111,7 +111,9 @@ def with_maintained_properties(form: Cons, environment: Any) -> Value:
 
 def is_property_form(form: Value) -> bool:
     """True if FORM is written as a property, or as something that gives one."""
-    return form.__class__ is Cons and isinstance(form.car, Symbol) and form.cdr.__class__ is Cons
+    if form.__class__ is not Cons or form.cdr.__class__ is not Cons:
+        return False
+    return isinstance(form.car, Symbol) and form.car not in CONNECTIVES
 
 
 def maintain_values(properties: Value, body: Any) -> Value:
