@@ -225,16 +225,16 @@ def literal(node: Node) -> Value:
     return UNKNOWN
 
 
-CALLS, DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE, DEFINE_GOAL, HOLDS, COMPUTED, BINDINGS, MAINTAIN = (
+CALLS, HOLDS, COMPUTED, UNSERVED = (
+    Symbol.intern(name, ESL) for name in ("%CALLS-P", "%HOLDS-P", "%COMPUTED-CONDITION", "%UNSERVED-P")
+)
+DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE, DEFINE_GOAL, BINDINGS, MAINTAIN = (
     Symbol.intern(name, ESL)
     for name in (
-        "%CALLS-P",
         "%DEFINE-RELATION",
         "%DEFINE-PROPERTY",
         "%DEFINE-RULE",
         "%DEFINE-GOAL",
-        "%HOLDS-P",
-        "%COMPUTED-CONDITION",
         "%CALL-WITH-QUERY-BINDINGS",
         "%MAINTAIN",
     )
@@ -254,6 +254,7 @@ READERS: dict[Symbol, Callable[[Mentions, Use, list[Any]], None]] = {
     BINDINGS: Mentions.ask,
     HOLDS: Mentions.hold,
     COMPUTED: Mentions.hold,
+    UNSERVED: Mentions.hold,
     MAINTAIN: Mentions.maintain,
     DEFINE_GOAL: Mentions.define_goal,
     DEFINE_RELATION: Mentions.define_relation,
