@@ -26,13 +26,14 @@ if TYPE_CHECKING:
     from eslang.runtime.claims import Property, Sight
     from eslang.runtime.locks import PropertyLocks
 
-MAINTAIN, ACHIEVE_PROPERTY, RECOVERY_FUNCTION, WITH = (
+MAINTAIN, ACHIEVE_PROPERTY, RECOVERY_FUNCTION, WITH, WAIT = (
     Symbol.intern(name, ESL)
     for name in (
         "%MAINTAIN",
         "ACHIEVE-PROPERTY",
         "*RECOVERY-FUNCTION*",
         "WITH-MAINTAINED-PROPERTIES",
+        "WAIT-FOR-RECOVERY",
     )
 )
 ANY = Symbol.intern("?_", ESL)
@@ -148,7 +149,7 @@ def wait_for_recovery(wanted: Value) -> Value:
 
     Source: ARM §4, Automatic Recoveries.
     """
-    locks_of(running.session).keeper.wait_for_recovery(property_of(wanted))
+    locks_of(running.session).keeper.wait_for_recovery(property_of(wanted, WAIT))
     return None
 
 
@@ -168,16 +169,16 @@ def locks_of(session: Any) -> PropertyLocks:
     return locks
 
 
-def property_of(form: Value) -> Property:
+def property_of(form: Value, operator: Symbol = WITH) -> Property:
     """The property with a value that FORM says; fails with :type-error if that is none."""
     from eslang.facts.terms import code_of
     from eslang.runtime.claims import Property
 
     if not is_property_form(form) or is_written(form):
-        raise type_error(form, Symbol.intern("PROPERTY", ESL), WITH)
+        raise type_error(form, Symbol.intern("PROPERTY", ESL), operator)
     *parts, value = items(form)
     if any(map(has_variable, parts)):
-        raise type_error(form, Symbol.intern("PROPERTY", ESL), WITH)
+        raise type_error(form, Symbol.intern("PROPERTY", ESL), operator)
     code = ANY if is_variable(value) else code_of(value)
     return Property(tuple(map(code_of, parts)), code, form, shown(form))
 

@@ -72,6 +72,11 @@ def test_a_property_of_no_known_thing_is_no_property(wrong: str) -> None:
     assert str(came.failure).startswith("failure :TYPE-ERROR")
 
 
+def test_what_is_no_property_has_no_recovery_to_wait_for() -> None:
+    came = run("(wait-for-recovery 'lamp)")
+    assert str(came.failure) == "failure :TYPE-ERROR LAMP PROPERTY WAIT-FOR-RECOVERY"
+
+
 def test_any_value_will_do_where_it_is_a_variable() -> None:
     text = """(assert '(lamp hall :dim))
       (task-net (a (with-maintained-properties ((lamp hall ?any)) (sleep 5) (print :a)))
