@@ -139,6 +139,13 @@ def is_written(condition: Cons) -> bool:
     return condition.car is QUOTE or condition.car is QUASIQUOTE or condition.car is LOGICAL_BINDING
 
 
+def is_one_query(condition: Value) -> bool:
+    """Whether CONDITION is asked as one query, all solutions of which count."""
+    if not is_compound(condition):
+        return False
+    return is_written(condition) or (condition.car not in (OR, NOT) and has_variables(condition))
+
+
 def may_call(condition: Cons, environment: Any) -> bool:
     """Whether CONDITION may be a call: its operator is a function, or all lists in it look like calls."""
     if calls_p(condition.car) is not None:

@@ -10,8 +10,8 @@ from __future__ import annotations
 from eslang.base.hints import TYPE_CHECKING, Any, Callable
 from eslang.base.lists import from_items
 from eslang.base.running import running
-from eslang.base.symbols import Symbol, Value
-from eslang.constructs.queries import as_bound
+from eslang.base.symbols import Symbol, T, Value
+from eslang.constructs.queries import as_bound, in_force
 from eslang.runtime.events import Wait
 from eslang.runtime.polls import CONDITION
 
@@ -46,6 +46,16 @@ class Inquiry:
         self.relations.update(dict.fromkeys(name for name, _ in reads.relations()))
         self.is_overtaken = self.is_overtaken or reads.overtaken
         self.watches.append(watch(reads, self.stir))
+
+    def call_within(self, body: Callable[[], Value]) -> Value:
+        """What BODY gives under the bindings under which the condition held."""
+        dynamic = running.session.dynamic
+        outer = dynamic.logical
+        dynamic.logical = outer.within(self.bindings)
+        try:
+            return body()
+        finally:
+            dynamic.logical = outer
 
     def end(self) -> None:
         """Watch no more."""
@@ -115,3 +125,29 @@ class Look:
             self.told = reads
             relations, polls = from_items(list(inquiry.relations)), inquiry.asked_lisp
             self.scheduler.lives.tell("watch", of=self.waiting.of, relations=relations, polls=polls)
+
+
+class Serving:
+    """The solutions of a query that were served, and are solutions still."""
+
+    def __init__(self) -> None:
+        self.served: set[Any] = set()
+        self.next: Any = None  # what the one is known by that is to be served now
+
+    def look(self, query: Value) -> Value:
+        """T if QUERY has a solution that was not served: the first is the next one. A Look asks it."""
+        from eslang.facts.terms import code_of
+
+        solutions, reads = running.session.database.ask_all(in_force(query))
+        found = {tuple([(name, code_of(each[name])) for name in each]): each for each in solutions}
+        self.served &= found.keys()
+        self.next = next((key for key in found if key not in self.served), None)
+        running.session.dynamic.logical.inquiry.note(found.get(self.next), reads)
+        return None if self.next is None else T
+
+    def serve(self, condition: Value, test: Callable[[], Value], body: Callable[[], Value]) -> Value:
+        """Wait until there is a solution that was not served, which TEST asks; what BODY gives for it."""
+        look = Look(condition, test)
+        look.wait(None)
+        self.served.add(self.next)
+        return look.inquiry.call_within(body)

@@ -8,6 +8,7 @@ others are taken over into these (decision 28).
 
 from __future__ import annotations
 
+from eslang.base.failure import Failure
 from eslang.base.hints import TYPE_CHECKING, Any, Iterable
 from eslang.base.symbols import Keyword, Symbol
 from eslang.devices.device import HEALTHS, OK, ON, TRIPPED, Device, Wiring
@@ -57,25 +58,54 @@ def pairs(facts: Knowledge, relation: Symbol) -> list[tuple[Any, Any]]:
 def read_description(facts: Knowledge, devices: dict[Any, Device]) -> list[Device]:
     """Let DEVICES be wired as the facts say; those that are new, in the state that the facts tell."""
     take_over(facts)
+    wires, numbers = wires_in(facts), numbers_in(facts)
     known = len(devices)
     for device in devices.values():
         device.wiring, device.is_bus, device.is_switch = Wiring(), False, False
     for relation in (POWER_STATE, HEALTH_STATE):
         for name, _ in pairs(facts, relation):
             named(devices, name)
-    for word, slot in WIRES.items():
-        for name, other in pairs(facts, RELATIONS[word]):
-            if isinstance(other, Symbol):
-                getattr(named(devices, name).wiring, slot).append(named(devices, other))
-    for word, slot in NUMBERS.items():
-        for name, number in pairs(facts, RELATIONS[word]):
-            if isinstance(number, int | float) or number.__class__.__name__ == "Fraction":
-                setattr(named(devices, name).wiring, slot, max(0.0, float(number)))
+    for name, slot, other in wires:
+        getattr(named(devices, name).wiring, slot).append(named(devices, other))
+    for name, slot, number in numbers:
+        setattr(named(devices, name).wiring, slot, number)
     mark_parts(devices)
     new = list(devices.values())[known:]
     for device in new:
         begin(facts, device)
     return new
+
+
+def wires_in(facts: Knowledge) -> list[tuple[Any, str, Any]]:
+    """What is connected with what, and how. Raises Failure(:wrong-description)."""
+    found = []
+    for word, slot in WIRES.items():
+        for name, other in pairs(facts, RELATIONS[word]):
+            if not isinstance(other, Symbol):
+                raise Failure("wrong-description", [RELATIONS[word], name, other])
+            found.append((name, slot, other))
+    return found
+
+
+def numbers_in(facts: Knowledge) -> list[tuple[Any, str, float]]:
+    """The numbers of devices, none below 0. Raises Failure(:wrong-description) with a fact that has none."""
+    found = []
+    for word, slot in NUMBERS.items():
+        for name, value in pairs(facts, RELATIONS[word]):
+            number = amount_of(value)
+            if number is None:
+                raise Failure("wrong-description", [RELATIONS[word], name, value])
+            found.append((name, slot, number))
+    return found
+
+
+def amount_of(value: Any) -> float | None:
+    """VALUE as watts or seconds; None if it is no number, or below 0, or more than a float can be."""
+    is_number = value.__class__ in (int, float) or value.__class__.__name__ == "Fraction"
+    try:
+        return float(value) if is_number and value >= 0 else None
+    except OverflowError:
+        return None
 
 
 def names_in(facts: Knowledge) -> dict[Any, None]:

@@ -155,6 +155,11 @@ class Plan:
         reads.asked_lisp = reads.asked_lisp or bool(self.tests)
         return self._on_view(FIRST, constants, reads)  # type: ignore[no-any-return]
 
+    def noting_all(self, constants: Constants, reads: Reads) -> list[Solution]:
+        """All solutions, and in READS what was read to find them."""
+        reads.asked_lisp = reads.asked_lisp or bool(self.tests)
+        return self._on_view(ALL, constants, reads)  # type: ignore[no-any-return]
+
 
 def make_plan(
     resolve: Callable[[Atom], Relation | None],

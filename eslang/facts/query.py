@@ -8,7 +8,7 @@ when a rule or a declaration changes what they rest on.
 from __future__ import annotations
 
 from eslang.base.failure import WRONG_NUMBER_OF_ARGUMENTS, Failure
-from eslang.base.hints import TYPE_CHECKING, Callable
+from eslang.base.hints import TYPE_CHECKING, Any, Callable
 from eslang.base.symbols import Symbol, Value
 from eslang.facts.goals import NOTHING_GIVEN, Atom, Constants, Given, Tokens, read_query
 from eslang.facts.relations import Relation
@@ -136,10 +136,17 @@ class Facts(Store):
 
     def ask(self, query: Value, given: Given = NOTHING_GIVEN) -> tuple[Solution | None, Reads]:
         """The first solution of QUERY, if any, and what was read to know that."""
-        reads = Reads()
         plan, constants = self._planned(query, given)
-        definitions = self.definitions
-        found = plan.noting(constants, reads)
+        return self._noted(plan.noting, constants)
+
+    def ask_all(self, query: Value) -> tuple[list[Solution], Reads]:
+        """All solutions of QUERY, and what was read to know them."""
+        plan, constants = self._planned(query, NOTHING_GIVEN)
+        return self._noted(plan.noting_all, constants)
+
+    def _noted(self, answer: Callable[[Constants, Reads], Any], constants: Constants) -> tuple[Any, Reads]:
+        reads, definitions = Reads(), self.definitions
+        found = answer(constants, reads)
         reads.overtaken = reads.overtaken or self.definitions != definitions
         return found, reads
 

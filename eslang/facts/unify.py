@@ -111,21 +111,25 @@ def unifiable(left: Value, right: Value) -> bool:
     pending: list[tuple[Place, Place]] = [((False, left), (True, right))]
     while pending:
         one, other = (walked(each, bound) for each in pending.pop())
-        if one[1] is other[1] and one[0] is other[0]:
+        if (one[1] is other[1] and one[0] is other[0]) or is_anything(one[1]) or is_anything(other[1]):
             continue
         if is_variable(other[1]):
             one, other = other, one
         if is_variable(one[1]):
-            if one[1].name != "?_":
-                if occurs(one, other, bound):
-                    return False
-                bound[one] = other
+            if occurs(one, other, bound):
+                return False
+            bound[one] = other
         elif one[1].__class__ is Cons and other[1].__class__ is Cons:
             pending.append(((one[0], one[1].cdr), (other[0], other[1].cdr)))
             pending.append(((one[0], one[1].car), (other[0], other[1].car)))
         elif not same(one[1], other[1]):
             return False
     return True
+
+
+def is_anything(term: Value) -> bool:
+    """True if TERM is ?_, which is another variable each time."""
+    return is_variable(term) and bool(term.name == "?_")
 
 
 def walked(place: Place, bound: dict[Place, Place]) -> Place:

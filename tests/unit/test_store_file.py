@@ -204,7 +204,7 @@ if os.fork() == 0:
     gc.collect()
     sys.exit()
 os.wait()
-print(sorted(os.listdir(os.path.dirname(path))))
+print(sorted(os.listdir(os.path.dirname(path))), flush=True)
 agent.facts.add("a", 2)
 os._exit(0)
 """

@@ -16,7 +16,7 @@ from eslang.base.running import running, to_function
 from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.registry import ESL, function, macro, variable
-from eslang.constructs.conditions import holds_p, is_written, term_form
+from eslang.constructs.conditions import CONNECTIVES, holds_p, is_written, term_form
 from eslang.constructs.esl.tasks import LAMBDA, LIST
 from eslang.constructs.shapes import refuse
 from eslang.constructs.watching import Inquiry
@@ -26,13 +26,14 @@ if TYPE_CHECKING:
     from eslang.runtime.claims import Property, Sight
     from eslang.runtime.locks import PropertyLocks
 
-MAINTAIN, ACHIEVE_PROPERTY, RECOVERY_FUNCTION, WITH = (
+MAINTAIN, ACHIEVE_PROPERTY, RECOVERY_FUNCTION, WITH, WAIT = (
     Symbol.intern(name, ESL)
     for name in (
         "%MAINTAIN",
         "ACHIEVE-PROPERTY",
         "*RECOVERY-FUNCTION*",
         "WITH-MAINTAINED-PROPERTIES",
+        "WAIT-FOR-RECOVERY",
     )
 )
 ANY = Symbol.intern("?_", ESL)
@@ -111,7 +112,9 @@ def with_maintained_properties(form: Cons, environment: Any) -> Value:
 
 def is_property_form(form: Value) -> bool:
     """True if FORM is written as a property, or as something that gives one."""
-    return form.__class__ is Cons and isinstance(form.car, Symbol) and form.cdr.__class__ is Cons
+    if form.__class__ is not Cons or form.cdr.__class__ is not Cons:
+        return False
+    return isinstance(form.car, Symbol) and form.car not in CONNECTIVES
 
 
 def maintain_values(properties: Value, body: Any) -> Value:
@@ -146,7 +149,7 @@ def wait_for_recovery(wanted: Value) -> Value:
 
     Source: ARM §4, Automatic Recoveries.
     """
-    locks_of(running.session).keeper.wait_for_recovery(property_of(wanted))
+    locks_of(running.session).keeper.wait_for_recovery(property_of(wanted, WAIT))
     return None
 
 
@@ -166,16 +169,16 @@ def locks_of(session: Any) -> PropertyLocks:
     return locks
 
 
-def property_of(form: Value) -> Property:
+def property_of(form: Value, operator: Symbol = WITH) -> Property:
     """The property with a value that FORM says; fails with :type-error if that is none."""
     from eslang.facts.terms import code_of
     from eslang.runtime.claims import Property
 
     if not is_property_form(form) or is_written(form):
-        raise type_error(form, Symbol.intern("PROPERTY", ESL), WITH)
+        raise type_error(form, Symbol.intern("PROPERTY", ESL), operator)
     *parts, value = items(form)
     if any(map(has_variable, parts)):
-        raise type_error(form, Symbol.intern("PROPERTY", ESL), WITH)
+        raise type_error(form, Symbol.intern("PROPERTY", ESL), operator)
     code = ANY if is_variable(value) else code_of(value)
     return Property(tuple(map(code_of, parts)), code, form, shown(form))
 

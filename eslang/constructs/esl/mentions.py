@@ -93,6 +93,15 @@ class Mentions:
             self.note_variables(use, given[0])
         self.questions.append(Question(given[0], use))
 
+    def maintain(self, use: Use, given: list[Value]) -> None:
+        """WITH-MAINTAINED-PROPERTIES: the properties."""
+        if given[0].__class__ is not Cons:
+            return
+        for wanted, form in zip(items(given[0]), items(use.form.cdr.car.cdr), strict=False):
+            self.note_query(CONDITION, use, wanted)
+            if use.scope.analyser.spans.of(form) is None:  # the program has no quote there
+                self.note_variables(use, wanted)
+
     def define_goal(self, use: Use, given: list[Value]) -> None:
         """TO-ACHIEVE: the pattern."""
         self.note_query(GOAL, use, given[0])
@@ -216,17 +225,18 @@ def literal(node: Node) -> Value:
     return UNKNOWN
 
 
-CALLS, DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE, DEFINE_GOAL, HOLDS, COMPUTED, BINDINGS = (
+CALLS, HOLDS, COMPUTED, UNSERVED = (
+    Symbol.intern(name, ESL) for name in ("%CALLS-P", "%HOLDS-P", "%COMPUTED-CONDITION", "%UNSERVED-P")
+)
+DEFINE_RELATION, DEFINE_PROPERTY, DEFINE_RULE, DEFINE_GOAL, BINDINGS, MAINTAIN = (
     Symbol.intern(name, ESL)
     for name in (
-        "%CALLS-P",
         "%DEFINE-RELATION",
         "%DEFINE-PROPERTY",
         "%DEFINE-RULE",
         "%DEFINE-GOAL",
-        "%HOLDS-P",
-        "%COMPUTED-CONDITION",
         "%CALL-WITH-QUERY-BINDINGS",
+        "%MAINTAIN",
     )
 )
 ASSERT, RETRACT, UPDATE, DB_QUERY, EXPLAIN_QUERY, LOAD_FACTS = (
@@ -244,6 +254,8 @@ READERS: dict[Symbol, Callable[[Mentions, Use, list[Any]], None]] = {
     BINDINGS: Mentions.ask,
     HOLDS: Mentions.hold,
     COMPUTED: Mentions.hold,
+    UNSERVED: Mentions.hold,
+    MAINTAIN: Mentions.maintain,
     DEFINE_GOAL: Mentions.define_goal,
     DEFINE_RELATION: Mentions.define_relation,
     DEFINE_PROPERTY: Mentions.define_relation,

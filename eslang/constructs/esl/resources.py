@@ -119,6 +119,9 @@ def with_resource(form: Cons, environment: Any) -> Value:
     while body is not None and (body.car is PRIORITY or body.car is WAIT) and body.cdr is not None:
         options += [body.car, body.cdr.car]
         body = body.cdr.cdr
+    if body is not None and isinstance(body.car, Keyword) and body.cdr is not None:
+        wrong, hint = f"`{shown(body.car)}` is no option", "write `:priority number` or `:wait nil`"
+        refuse(environment, "malformed-form", wrong, body, hint=hint, within="with-resource")
     call = from_items([LAMBDA, None], body)
     return lisp_list(HOLD, lisp_list(QUOTE, claim.car), claim.cdr.car, lisp_list(LIST, *options), call)
 

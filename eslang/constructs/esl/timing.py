@@ -15,16 +15,25 @@ from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.base.text import String
 from eslang.compile.registry import CL, ESL, function, macro
-from eslang.constructs.conditions import computed_once, test_form, with_variables
+from eslang.constructs.conditions import (
+    computed_once,
+    is_one_query,
+    query_form,
+    test_form,
+    with_variables,
+)
 from eslang.constructs.esl.tasks import LAMBDA, QUOTE, closure
 from eslang.constructs.shapes import refuse
-from eslang.constructs.watching import Look
+from eslang.constructs.watching import Look, Serving
 from eslang.runtime import failures
 from eslang.runtime.guarding import run_until
 from eslang.runtime.periods import Periods
 
-DEADLINE, WAIT, WHEN = (Symbol.intern(name, ESL) for name in ("%CALL-WITH-DEADLINE", "%WAIT-UNTIL", "%WHEN"))
-LOOP, NOT = (Symbol.intern(name, CL) for name in ("LOOP", "NOT"))
+DEADLINE, WAIT, WHEN, MAKE_SERVING, SERVE, UNSERVED = (
+    Symbol.intern(name, ESL)
+    for name in ("%CALL-WITH-DEADLINE", "%WAIT-UNTIL", "%WHEN", "%MAKE-SERVING", "%SERVE", "%UNSERVED-P")
+)
+LET, LOOP, NOT = (Symbol.intern(name, CL) for name in ("LET", "LOOP", "NOT"))
 DEADLINE_EXPIRED, TIMEOUT = Keyword("DEADLINE-EXPIRED"), Keyword("TIMEOUT")
 LONGEST = 1e9  # seconds
 
@@ -151,23 +160,35 @@ def when_function(condition: Value, test: Any, body: Any) -> Value:
     """Wait until TEST is true; then call BODY, with the logic variables of CONDITION bound."""
     look = Look(condition, test)
     look.wait(None)
-    dynamic = running.session.dynamic
-    outer = dynamic.logical
-    dynamic.logical = outer.within(look.inquiry.bindings)
-    try:
-        return body()
-    finally:
-        dynamic.logical = outer
+    return look.inquiry.call_within(body)
+
+
+@function("(%make-serving)", ESL)
+def make_serving() -> Serving:
+    """What WHENEVER remembers of the solutions that it has served."""
+    return Serving()
+
+
+@function("(%unserved-p query serving)", ESL)
+def is_unserved(query: Value, serving: Serving) -> Value:
+    """Tell whether QUERY has a solution that was not served."""
+    return serving.look(query)
+
+
+@function("(%serve serving condition test body)", ESL)
+def serve(serving: Serving, condition: Value, test: Any, body: Any) -> Value:
+    """Call BODY for the next solution, once TEST says that there is one."""
+    return serving.serve(condition, test, body)
 
 
 @macro("(whenever condition &body body)", ESL)
 def whenever(form: Cons, environment: Any) -> Value:
     """Run BODY each time that CONDITION becomes true, and now if it is true.
 
-    In BODY, #?X is what the logic variable ?X of CONDITION was bound to. A
-    change that comes and goes while BODY runs is not seen; and as long as
-    CONDITION stays true, with whatever values, BODY is not run again. To serve
-    all that there is, LOOP around WAIT-UNTIL. RETURN leaves.
+    If CONDITION has logic variables, it is run for each solution that comes
+    up, one after the other, and #?X in BODY is what ?X is bound to; again for
+    the same one only when that was no solution in between. A change that comes
+    and goes while BODY runs is not seen. RETURN leaves.
 
     Returns: what RETURN gives.
     Fails:   as BODY does; :deadlock if nothing runs that could change CONDITION.
@@ -178,18 +199,27 @@ def whenever(form: Cons, environment: Any) -> Value:
             (spawn (dotimes (i 4) (sleep 1) (setq level (- 1 level))) :daemon t)
             (whenever (= level 1) (return (list :full level))))
         (:FULL 1)
-        ? (progn (spawn (assert '(heard siren)))
-                 (whenever (heard ?sound) (return #?sound)))
-        SIREN
+        ? (progn (spawn (dolist (order '(soup tea bill)) (assert `(order ,order))))
+                 (whenever (order ?what)
+                   (princ #?what)
+                   (if (eq #?what 'bill) (return :done))))
+        SOUPTEABILL
+        :DONE
 
     Source: language reference §4; what wakes it: decision 19.
     """
-    condition, body = form.cdr.car, form.cdr.cdr
+    condition, run = form.cdr.car, from_items([LAMBDA, None], form.cdr.cdr)
+    quoted = lisp_list(QUOTE, condition)
     asked, bindings = computed_once(condition)
+    if is_one_query(asked):
+        serving = Symbol.uninterned("SERVING")
+        more = closure(lisp_list(UNSERVED, query_form(asked, environment), serving))
+        each = lisp_list(LOOP, lisp_list(SERVE, serving, quoted, more, run))
+        made = lisp_list(lisp_list(serving, lisp_list(MAKE_SERVING)))
+        return with_variables(bindings, lisp_list(LET, made, each))
     test, no_more = (closure(test_form(each, environment)) for each in (asked, lisp_list(NOT, asked)))
-    when = lisp_list(WHEN, lisp_list(QUOTE, condition), test, from_items([LAMBDA, None], body))
     until = lisp_list(WAIT, lisp_list(QUOTE, lisp_list(NOT, condition)), no_more)
-    return with_variables(bindings, lisp_list(LOOP, when, until))
+    return with_variables(bindings, lisp_list(LOOP, lisp_list(WHEN, quoted, test, run), until))
 
 
 # --- periods -------------------------------------------------------------------------

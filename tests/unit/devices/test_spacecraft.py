@@ -254,3 +254,37 @@ def test_one_procedure_answers_every_command_that_fails() -> None:
               (with-recovery-procedures (((:command-failed device who) (princ (list device who)) (abort)))
                 (turn-device-on :camera))"""
     assert run(text).output.split("\n")[-1] == "(CAMERA CAMERA_SW)"
+
+
+# --- a description that is wrong -----------------------------------------------------
+
+WRONG = [
+    "(power-draw :lamp ten)",
+    "(power-draw :lamp -1)",
+    "(command-latency :lamp t)",
+    '(bus-capacity :bus "100")',
+    "(powered-thru :lamp 5)",
+]
+
+
+@pytest.mark.parametrize("fact", WRONG)
+def test_a_fact_that_describes_nothing_is_named_when_the_device_is_spoken_to(fact: str) -> None:
+    with craft() as agent:
+        agent.eval(f"(progn (turn-device-on :lamp) (assert '{fact}))")
+        assert failure_of(agent, "(turn-device-off :lamp)")[0] == ":WRONG-DESCRIPTION"
+        said = "(with-recovery-procedures (((:wrong-description f) (abort f))) (turn-device-off :lamp))"
+        assert agent.eval(f"(equal '{fact} {said})") is True
+
+
+def test_a_number_above_all_floats_is_no_description() -> None:
+    with craft() as agent:
+        agent.eval("(assert (list 'power-draw :lamp (expt 10 400)))")
+        assert failure_of(agent, "(turn-device-on :lamp)")[0] == ":WRONG-DESCRIPTION"
+
+
+def test_what_was_wrong_and_is_repaired_is_as_it_was() -> None:
+    with craft() as agent:
+        agent.eval("(progn (turn-device-on :lamp) (assert '(powered-thru :lamp 5)))")
+        failure_of(agent, "(device-power-state :lamp)")
+        agent.eval("(retract '(powered-thru :lamp 5))")
+        assert str(agent.eval("(device-power-state :lamp)")) == ":ON"

@@ -31,6 +31,7 @@ CASES = {
     "(a . ?rest) (a b c)": True,
     "(a b) (a)": False,
     "nil ()": True,
+    "((?y ?_ . a) . ?y) (((a . ?y) ?y . a) . ?y)": False,
 }
 
 

@@ -8,7 +8,7 @@ from io import StringIO
 import pytest
 from unit.devices.world import failure_of, state
 
-from eslang import Interpreter
+from eslang import EslError, Interpreter
 from eslang.base.spans import Source
 from eslang.base.symbols import Keyword
 from eslang.devices.scenario import begin_scenario, scenario_of
@@ -269,3 +269,19 @@ def test_two_tasks_may_keep_the_same_device_ready(agent: Interpreter) -> None:
                           (b (with-ready-device (camera :camera) (sleep 9) (operate-device camera)))))"""
     assert agent.eval(form) == [Keyword("CAMERA"), True]
     assert sent(agent).count(":camera_sw :turn-on") == 1
+
+
+def test_devices_that_talk_through_each_other_are_never_ready(agent: Interpreter) -> None:
+    agent.eval("""(dolist (fact '((talks-thru :x :y) (talks-thru :y :x)
+                                  (powered-thru :x :neb1) (powered-thru :y :neb1)))
+                    (assert fact))""")
+    agent.eval("(progn (turn-device-on :x) (turn-device-on :y))")
+    assert agent.eval("(device-ready-p :x)") is None
+    assert len(agent.eval("(ready-properties :x)")) == 4
+    assert failure_of(agent, "(make-ready :x)") == (":NOT-READY", ":X")
+
+
+@pytest.mark.parametrize("form", ["(with-ready-device :ega_x 1)", "(with-ready-device (x) 1)"])
+def test_a_device_without_a_variable_is_refused_before_the_run(agent: Interpreter, form: str) -> None:
+    with pytest.raises(EslError, match="with-ready-device"):
+        agent.eval(f"(defun f () {form})")

@@ -298,15 +298,16 @@ def test_a_change_while_the_condition_is_asked_is_not_lost() -> None:
     assert lines_of(text) == [":CLOSED"]
 
 
-def test_whenever_runs_each_time_that_the_condition_becomes_true() -> None:
+def test_whenever_runs_each_time_that_the_condition_becomes_true_and_for_each_solution() -> None:
     text = """
+    (spawn (whenever (or (alarm fire) (alarm flood) (alarm storm)) (print :alarm)) :daemon t)
     (spawn (whenever (alarm ?what) (print #?what)) :daemon t)
     (dolist (step '((assert (alarm fire)) (assert (alarm flood)) (retract (alarm ?_)) (assert (alarm storm))))
       (sleep 1)
       (apply (first step) (rest step)))
     (sleep 1)
     """
-    assert lines_of(text) == ["FIRE", "STORM"]
+    assert lines_of(text) == [":ALARM", "FIRE", "FLOOD", ":ALARM", "STORM"]
 
 
 def test_whenever_is_woken_by_a_property() -> None:

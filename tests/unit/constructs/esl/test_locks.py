@@ -47,18 +47,34 @@ def test_the_body_may_return_from_around() -> None:
     assert lines_of(WORLD + text) == [":LEFT", ":FREE"]
 
 
-@pytest.mark.parametrize("wrong", ["lamp", "((lamp))", "(5)", "(lamp)", "((5 6))"])
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "lamp",
+        "((lamp))",
+        "(5)",
+        "(lamp)",
+        "((5 6))",
+        "(not (lamp hall :on))",
+        "((or (lamp hall :on) (lamp hall :off)))",
+    ],
+)
 def test_what_is_written_as_no_property_is_refused(wrong: str) -> None:
     came = run(f"(defun f () (with-maintained-properties {wrong} 1))")
     assert isinstance(came.error, EslError)
     assert "is no property" in str(came.error)
 
 
-@pytest.mark.parametrize("wrong", ["(lamp ?where :on)", "(lamp (room ?x) :on)"])
+@pytest.mark.parametrize("wrong", ["(lamp ?where :on)", "(lamp (room ?x) :on)", "'(not (lamp hall :on))"])
 def test_a_property_of_no_known_thing_is_no_property(wrong: str) -> None:
     came = run(WORLD + f"(with-maintained-properties ({wrong}) 1)")
     assert isinstance(came.failure, Failure)
     assert str(came.failure).startswith("failure :TYPE-ERROR")
+
+
+def test_what_is_no_property_has_no_recovery_to_wait_for() -> None:
+    came = run("(wait-for-recovery 'lamp)")
+    assert str(came.failure) == "failure :TYPE-ERROR LAMP PROPERTY WAIT-FOR-RECOVERY"
 
 
 def test_any_value_will_do_where_it_is_a_variable() -> None:

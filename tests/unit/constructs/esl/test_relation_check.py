@@ -81,6 +81,18 @@ SAID = {
         "(assert '(on 1)) (defun f (x) (wait-until (on x)) (achieve (and (not (on x)) (on (lamp x)))))",
         [("variable-in-query", "x"), ("variable-in-query", "x"), ("variable-in-query", "x")],
     ),
+    "a property that nothing asserts": (
+        "(assert '(power b :on)) (defun f () (with-maintained-properties ((power b :on) (powr b :on)) 1))",
+        [("unknown-relation", "powr")],
+    ),
+    "a property of another length than declared": (
+        "(defproperty power (device state)) (defun f () (with-maintained-properties (power :on) 1))",
+        [("wrong-number-of-arguments", "power")],
+    ),
+    "a variable in a property that is maintained": (
+        "(defproperty on (what)) (defun f (x) (with-maintained-properties ((on x) `(on ,x)) 1))",
+        [("variable-in-query", "x")],
+    ),
     "a fact that is not quoted, once": ("(assert (on lamp ?x))", [("unknown-function", "on")]),
     "a query that is not quoted, once": (
         "(assert '(on lamp)) (with-query-bindings (on ?x) (db-query (on ?x)) #?x)",

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import pytest
+
+from eslang import EslError
 from support import lines_of, run
 
 NOW = "(defun now () (/ (get-internal-real-time) internal-time-units-per-second))"
@@ -141,3 +144,14 @@ def test_wrong_resources_are_named() -> None:
     }.items():
         came = run(POWER + form)
         assert came.failure is not None and said in str(came.failure), (form, str(came.failure))
+
+
+@pytest.mark.parametrize("options", [":prioritiy 3", ":priority 3 :waits nil"])
+def test_an_option_that_there_is_not_is_refused(options: str) -> None:
+    came = run(f"(defun f () (with-resource (power 30) {options} 1))")
+    assert isinstance(came.error, EslError)
+    assert "is no option" in str(came.error)
+
+
+def test_a_keyword_that_is_the_body_is_its_value() -> None:
+    assert lines_of(POWER + "(print (with-resource (power 30) :priority 3 :held))") == [":HELD"]

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from eslang import Interpreter
-from support import lines_of
+from support import lines_of, run
 
 
 class Questions:
@@ -227,3 +227,41 @@ def test_what_stands_under_a_backquote_is_computed_once() -> None:
     asked = Questions(text)
     assert asked.lines == ["2", "3", "4"]
     assert asked.count < 10
+
+
+# --- whenever there are solutions -----------------------------------------------------
+
+
+def test_whenever_serves_each_solution_once() -> None:
+    text = """
+    (task-net (server (whenever (order ?x)
+                        (print #?x) (sleep 2) (retract '(order #?x)) (if (eq #?x 'last) (return))))
+              (client (dolist (each '(soup tea)) (assert `(order ,each)))
+                      (sleep 20) (assert '(order bill)) (sleep 3) (assert '(order last))))
+    """
+    assert lines_of(text) == ["SOUP", "TEA", "BILL", "LAST"]
+
+
+def test_whenever_serves_a_solution_again_only_when_it_was_none_in_between() -> None:
+    text = """
+    (assert '(p 1)) (assert '(p 2))
+    (let ((n 0))
+      (task-net (server (whenever (p ?x) (print #?x) (if (= (incf n) 3) (return))))
+                (other (sleep 1) (assert '(q)) (retract '(p 1)) (sleep 1) (print :back) (assert '(p 1)))))
+    """
+    assert lines_of(text) == ["1", "2", ":BACK", "1"]
+
+
+def test_whenever_takes_a_query_that_is_data_and_parts_that_are_lisp() -> None:
+    text = """
+    (defvar *least* 5)
+    (task-net (a (whenever '(n ?x) (return (print #?x))))
+              (b (whenever (and (n ?x) (> ?x *least*)) (return (print (list :large #?x)))))
+              (c (assert '(n 3)) (sleep 1) (assert '(n 4)) (sleep 1) (setq *least* 3)))
+    """
+    assert lines_of(text) == ["3", "(:LARGE 4)"]
+
+
+def test_whenever_that_waits_for_more_is_a_deadlock_when_there_is_nobody() -> None:
+    came = run("(assert '(p 1)) (whenever (p ?x) (print #?x))")
+    assert (came.output.strip(), str(came.failure.cause)) == ("1", ":DEADLOCK")
