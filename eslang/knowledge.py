@@ -183,8 +183,12 @@ class Knowledge:
     def _look(self, work: Work) -> Any:
         """What WORK gives, now or between two steps."""
         runs = self._session.runs
-        found = visit(runs, lambda: self._done(work, ()))
-        return send(runs, lambda: self._done(work, ())) if found is NOT_NOW else found
+
+        def done() -> Any:
+            return self._done(work, ())
+
+        found = visit(runs, done)
+        return send(runs, done) if found is NOT_NOW else found
 
     def _ask(self, answer: Answer, query: Form, terms: Sequence[Any], given: dict[str, Any]) -> Any:
         """What ANSWER gives for a query. A call of Lisp in it is run as any call, where tasks can be."""

@@ -46,10 +46,6 @@ class IncompleteInput(EslError):
     """The text ends inside a form: more of it may still come."""
 
 
-class InternalError(Exception):
-    """A bug of ours (exit code 70)."""
-
-
 def error_at(
     name: str,
     message: str,

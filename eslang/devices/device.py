@@ -1,6 +1,6 @@
 """One piece of hardware: how it is wired, and what is true of it.
 
-What is true is hidden from plans; they see what sensors report (sensors.py),
+What is true is hidden from plans; they see what sensors report (hardware.py),
 and that later. A power bus and a switch are devices too: whatever others are
 powered or switched through. Its numbers are facts, as its wiring is
 (description.py).

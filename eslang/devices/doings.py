@@ -10,6 +10,7 @@ from __future__ import annotations
 from eslang.base.diagnostics import EslError, error_at
 from eslang.base.hints import TYPE_CHECKING, Any, Iterable, NamedTuple
 from eslang.base.lists import Cons
+from eslang.base.number_kinds import is_number
 from eslang.base.shown import shown
 from eslang.base.spans import Span, Spans
 from eslang.base.suggest import nearest
@@ -125,11 +126,6 @@ class Page:
                 else f"write one of {' '.join([f'`{shown(each)}`' for each in known])}"
             )
             raise self.malformed_at(f"`{shown(word)}` is no {kind}", holder, hint)
-
-
-def is_number(value: Value) -> bool:
-    """True of real numbers."""
-    return value.__class__ in (int, float) or value.__class__.__name__ == "Ratio"
 
 
 def near_name(name: Value, names: Iterable[Symbol]) -> str | None:

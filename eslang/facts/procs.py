@@ -15,7 +15,7 @@ from eslang.base.symbols import Keyword, Symbol
 from eslang.facts.goals import Atom, Constant, Constants, Nested, Shape, unbound, variables_of
 from eslang.facts.relations import Positions, Relation
 from eslang.facts.rules import Name, Rule
-from eslang.facts.steps import Arranger, Bound, Branch, Look, Steps, Test, is_known, ways_of
+from eslang.facts.steps import ANYTHING_AT_ALL, Arranger, Bound, Branch, Look, Steps, Test, is_known, ways_of
 from eslang.facts.transitive import ends_of, walking
 
 UNBOUNDED = Keyword("UNBOUNDED-RULES")
@@ -146,7 +146,9 @@ class Planner:
         for place, term in enumerate(head.terms):
             if place not in positions and not is_known(term, bound):
                 missing = [each for each in variables_of(term) if each not in bound]
-                raise unbound(missing[0] if missing else term, arranger.form(head))  # type: ignore[arg-type]
+                if not missing:
+                    missing = [term if isinstance(term, Symbol) else ANYTHING_AT_ALL]
+                raise unbound(missing[0], arranger.form(head))
 
     def _find_circles(self) -> None:
         """Note which procs need one another; fails where terms would grow without end."""

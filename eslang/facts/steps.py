@@ -199,8 +199,8 @@ class Arranger:
             obstacle = self._obstacle(goal, bound)
             if obstacle is not None:
                 trouble = trouble or obstacle
-            elif self._score(goal, bound) < score:
-                best, score = number, self._score(goal, bound)
+            elif (found := self._score(goal, bound)) < score:
+                best, score = number, found
         if best < 0:
             assert trouble is not None
             raise trouble

@@ -5,11 +5,11 @@ from __future__ import annotations
 from eslang.base.failure import type_error
 from eslang.base.hints import Callable
 from eslang.base.lists import Cons
+from eslang.base.number_kinds import is_number
 from eslang.base.running import running, to_function
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import Character, String, character
 from eslang.compile.registry import function
-from eslang.lisp.predicates import is_number
 from eslang.lisp.sequences import build, elements
 from eslang.lisp.types import expand_type, is_of_type
 

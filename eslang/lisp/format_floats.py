@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 
+from eslang.base.number_kinds import is_number
 from eslang.base.number_text import decimal_digits
 from eslang.base.symbols import Value
 from eslang.lisp.format_control import Directive, directive
@@ -15,7 +16,6 @@ from eslang.lisp.format_run import GO_ON, Run
 from eslang.lisp.format_text import BLANK, padded
 from eslang.lisp.numbers_reals import as_float
 from eslang.lisp.output import princ_text
-from eslang.lisp.predicates import is_number
 
 
 def _scaled(size: float, power: int) -> int:

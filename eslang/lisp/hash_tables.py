@@ -11,11 +11,12 @@ from eslang.base.failure import simple_error, type_error
 from eslang.base.hashing import KEY_OF, PLAIN, HashTable, equal_key
 from eslang.base.lists import Cons, from_items
 from eslang.base.many import pack
+from eslang.base.number_kinds import is_ratio
 from eslang.base.running import to_function
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.base.text import Character
 from eslang.compile.registry import function
-from eslang.lisp.predicates import eq, eql, equal, equalp, is_ratio
+from eslang.lisp.predicates import eq, eql, equal, equalp
 
 _TEST_NAMES = {eq: "EQ", eql: "EQL", equal: "EQUAL", equalp: "EQUALP"}
 

@@ -12,9 +12,9 @@ import operator
 
 from eslang.base.failure import Failure, division_by_zero, simple_error, type_error
 from eslang.base.hints import Callable
+from eslang.base.number_kinds import is_number
 from eslang.base.symbols import Value, truth
 from eslang.compile.registry import function
-from eslang.lisp.predicates import is_number
 
 
 def is_integer(value: Value) -> bool:

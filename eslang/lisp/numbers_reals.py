@@ -11,11 +11,11 @@ import sys
 
 from eslang.base.failure import Failure, division_by_zero, simple_error, type_error
 from eslang.base.hints import Callable
+from eslang.base.number_kinds import is_number, is_rational
 from eslang.base.running import running
 from eslang.base.symbols import Value
 from eslang.compile.registry import function, variable
 from eslang.lisp.numbers import check_number, is_integer, too_large
-from eslang.lisp.predicates import is_number, is_rational
 
 variable("pi", math.pi, "The ratio of a circle's circumference to its diameter.", constant=True)
 for _kind in ("short", "single", "double", "long"):

@@ -10,6 +10,7 @@ from types import FunctionType
 
 from eslang.base.hashing import equalp_key
 from eslang.base.lists import Cons
+from eslang.base.number_kinds import is_number, is_rational
 from eslang.base.packages import Package
 from eslang.base.sameness import is_eq, is_eql
 from eslang.base.symbols import Keyword, Symbol, Value, truth
@@ -50,21 +51,6 @@ def is_equal(a: Value, b: Value) -> bool:
 def is_equalp(a: Value, b: Value) -> bool:
     """Equal when neither case nor the types of numbers count; arrays and tables by content."""
     return a is b or bool(equalp_key(a) == equalp_key(b))
-
-
-def is_ratio(value: Value) -> bool:
-    """A ratio; asks without importing Python's fractions."""
-    return bool(value.__class__.__name__ == "Ratio")
-
-
-def is_rational(value: Value) -> bool:
-    """An integer or a ratio."""
-    return value.__class__ is int or is_ratio(value)
-
-
-def is_number(value: Value) -> bool:
-    """An integer, ratio or float."""
-    return value.__class__ is int or value.__class__ is float or is_ratio(value)
 
 
 def is_symbol(value: Value) -> bool:

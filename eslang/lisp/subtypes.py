@@ -9,9 +9,10 @@ from __future__ import annotations
 from eslang.base.hints import Any
 from eslang.base.lists import Cons, items
 from eslang.base.many import pack
+from eslang.base.number_kinds import is_rational
 from eslang.base.symbols import Symbol, T, Value, truth
 from eslang.compile.registry import function
-from eslang.lisp.predicates import is_equal, is_rational
+from eslang.lisp.predicates import is_equal
 from eslang.lisp.sequences import is_character_type
 from eslang.lisp.types import LINE_OF, expand_type, is_of_type, named_type
 

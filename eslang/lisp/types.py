@@ -11,6 +11,7 @@ from eslang.base.failure import simple_error
 from eslang.base.hashing import HashTable
 from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.lists import Cons, from_items, items
+from eslang.base.number_kinds import is_number, is_ratio, is_rational
 from eslang.base.packages import Package
 from eslang.base.running import running, to_function
 from eslang.base.sameness import is_eql
@@ -21,9 +22,6 @@ from eslang.lisp.predicates import (
     is_array,
     is_function,
     is_list,
-    is_number,
-    is_ratio,
-    is_rational,
     is_symbol,
     is_vector,
 )

@@ -39,9 +39,4 @@ def attempt(task: Task, work: Callable[[], object]) -> Failure | None:
 def comes_from_outside(interrupt: Interrupt, form: Form) -> bool:
     """True if INTERRUPT belongs to nothing that was entered inside FORM."""
     extent = interrupt.extent
-    if not isinstance(extent, Extent):
-        return extent is None
-    around = extent.forms
-    while around is not None and around is not form:
-        around = around.outer
-    return around is None
+    return not extent.is_within(form) if isinstance(extent, Extent) else extent is None

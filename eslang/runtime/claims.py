@@ -69,17 +69,15 @@ class Claim:
         "lock",
         "property",
         "recovery",
-        "since",
         "standing",
         "subscriptions",
         "violation",
     )
 
-    def __init__(self, lock: Lock, wanted: Property, since: float) -> None:
+    def __init__(self, lock: Lock, wanted: Property) -> None:
         self.lock = lock
         self.property = wanted
         self.standing = WANTED
-        self.since = since  # when it came to stand so
         self.subscriptions: dict[Subscription, None] = {}
         self.violation: Violation | None = None  # the last
         self.recovery: Task | None = None  # the task that restores it
@@ -99,11 +97,6 @@ class Claim:
             and (each.task.ending is None or each.wait is not None or each.task in awaited)
             for each in self.subscriptions
         )
-
-    def stand(self, standing: str, now: float) -> None:
-        """From NOW on it is STANDING so."""
-        self.standing = standing
-        self.since = now
 
 
 class Subscription:

@@ -155,8 +155,7 @@ def why_no_change(wait: Wait, alive: list[Task]) -> tuple[str, str]:
             return could, f"let {task.name} do that first"
     for task in ended(alive):
         if asserts(task, names) and task.status is not SUCCEEDED:
-            how = "has failed" if task.status is FAILED else "was aborted"
-            return f"{task.name}, which asserts or retracts facts of {shown_names}, {how}", advice
+            return f"{task.name}, which asserts or retracts facts of {shown_names}, {fate(task)}", advice
     return f"no task that is left asserts or retracts facts of {shown_names} in its body", advice
 
 
@@ -204,8 +203,12 @@ def why_signal_is_lost(task: Task, form: str) -> tuple[str, str]:
     if task.status is SUCCEEDED:
         advice = f"let the wait begin before `{form}`, or use a checkpoint, which is recorded"
         return f"{task.name} has ended; a signal that nobody waits for is lost", advice
-    how = "has failed" if task.status is FAILED else "was aborted"
-    return f"{task.name}, which signals it, {how}", f"let {task.name} come to its `{form}`"
+    return f"{task.name}, which signals it, {fate(task)}", f"let {task.name} come to its `{form}`"
+
+
+def fate(task: Task) -> str:
+    """How TASK, which did not succeed, has ended."""
+    return "has failed" if task.status is FAILED else "was aborted"
 
 
 def promises(task: Task, kind: str, of: Value) -> bool:

@@ -103,11 +103,11 @@ class Wait:
         self.result: Any = None
         self.several = len(events) > 1
         self.plain = not self.several and test is None  # any signal of its event ends it, and that is all
-        self.polls = True  # its condition may change at any step
-        self.reads: Iterable[Symbol] = ()  # the relations of the facts that its condition rests on
-        self.outside = False  # and reads what may change by itself
         if test is not None:
             self.offers: list[Arguments] = []
+            self.polls = True  # its condition may change at any step
+            self.reads: Iterable[Symbol] = ()  # the relations of the facts that its condition rests on
+            self.outside = False  # and reads what may change by itself
         for event in events:
             event.expect(self)
 

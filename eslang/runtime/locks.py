@@ -31,6 +31,7 @@ from eslang.runtime.claims import (
     Property,
     Subscription,
 )
+from eslang.runtime.deadlock import DEADLOCK, awaited
 from eslang.runtime.events import Wait
 from eslang.runtime.tasks import Extent, Interrupt, Task
 
@@ -38,9 +39,7 @@ if TYPE_CHECKING:
     from eslang.runtime.maintenance import Maintenance
     from eslang.runtime.scheduler import Scheduler
 
-UNAVAILABLE, NOT_ACHIEVED, DEADLOCK = map(
-    Keyword, ("PROPERTY-LOCK-UNAVAILABLE", "CONDITION-NOT-ACHIEVED", "DEADLOCK")
-)
+UNAVAILABLE, NOT_ACHIEVED = map(Keyword, ("PROPERTY-LOCK-UNAVAILABLE", "CONDITION-NOT-ACHIEVED"))
 ENDS = ("end", "tasks", "leaving")  # the kinds of waits for the ends of tasks
 
 
@@ -124,7 +123,7 @@ class PropertyLocks:
             lock = self.locks[wanted.key] = Lock(wanted.key)
         claim = next((each for each in lock.claims if each.property.value == wanted.value), None)
         if claim is None:
-            claim = Claim(lock, wanted, now)
+            claim = Claim(lock, wanted)
             lock.claims.append(claim)
         subscription = Subscription(task, claim, extent, now)
         subscription.is_met = claim.standing is ACHIEVED and claim not in self.keeper.suspects
@@ -175,7 +174,7 @@ class PropertyLocks:
         finally:
             claim.lock.busy = None
         if failure is None:
-            claim.stand(ACHIEVED, self.now())
+            claim.standing = ACHIEVED
             self.announce("achieved", claim, task)
             self.meet(claim)
             self.keeper.begin(claim)
@@ -360,10 +359,9 @@ class PropertyLocks:
 
     def announce(self, change: str, claim: Claim, task: Task | None) -> None:
         """Tell that CLAIM is changed, by a subscription of TASK, or what TASK does for it."""
-        if self.scheduler.session.hooks.listeners:
-            self.scheduler.lives.tell(
-                "lock", change=change, property=claim.property.form, of=task, owner=claim.lock.owner
-            )
+        self.scheduler.lives.tell(
+            "lock", change=change, property=claim.property.form, of=task, owner=claim.lock.owner
+        )
 
 
 def awaited_for(claim: Claim) -> list[Task]:
@@ -375,9 +373,7 @@ def awaited_for(claim: Claim) -> list[Task]:
 
 def ends(wait: Wait) -> list[Task]:
     """The tasks for whose ends WAIT is, those that are still to come."""
-    if wait.kind not in ENDS:
-        return []
-    return [task for task in ([wait.of] if isinstance(wait.of, Task) else wait.of) if task.status is None]
+    return awaited(wait) if wait.kind in ENDS else []
 
 
 def waiting(subscription: Subscription) -> Value:

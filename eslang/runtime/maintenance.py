@@ -191,7 +191,7 @@ class Maintenance:
 
     def violate(self, claim: Claim) -> None:
         """CLAIM, which was achieved, does not hold any more: all for whom it did fail, where they stand."""
-        claim.stand(VIOLATED, self.locks.now())
+        claim.standing = VIOLATED
         violation = claim.violation = Violation()
         self.locks.announce("violated", claim, None)
         by_task: dict[Task, list[Subscription]] = {}
@@ -206,7 +206,7 @@ class Maintenance:
 
     def restore(self, claim: Claim) -> None:
         """CLAIM, which was violated, holds again: who waited for that goes on."""
-        claim.stand(ACHIEVED, self.locks.now())
+        claim.standing = ACHIEVED
         self.locks.announce("recovered", claim, claim.recovery)
         self._end_violation(claim.violation, None)
         self.locks.meet(claim)
@@ -215,7 +215,7 @@ class Maintenance:
         """CLAIM cannot be restored: all its subscribers fail, and are no subscribers any more."""
         make = self.locks.maker(UNRECOVERABLE, claim, failure, claim.recovery)
         violation, failed = claim.violation, list(claim.subscriptions)
-        claim.stand(VIOLATED, self.locks.now())
+        claim.standing = VIOLATED
         waiting = {wait.task for wait in violation.waits} if violation is not None else set()
         self.locks.announce("unrecoverable", claim, claim.recovery)
         for each in failed:
@@ -240,7 +240,7 @@ class Maintenance:
         if claim.lock.busy is not None or not claim.persists():
             return
         self._forget(claim)
-        claim.stand(RECOVERING, self.locks.now())
+        claim.standing = RECOVERING
         claim.is_moot = False
         task = self._start("recovery", lambda: self._recover(claim), lambda task: self._recovery_ended(claim))
         claim.recovery = claim.lock.busy = task
@@ -270,7 +270,7 @@ class Maintenance:
         if claim.recovery is None:
             return
         if claim.is_moot:
-            claim.stand(VIOLATED, self.locks.now())  # whoever came meanwhile has it tried again
+            claim.standing = VIOLATED  # whoever came meanwhile has it tried again
         elif claim.subscriptions:
             self.give_up(claim, None)
         self._settle(claim)

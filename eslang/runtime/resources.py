@@ -84,11 +84,10 @@ class Resource:
 
     def _tell(self, scheduler: Scheduler, change: str, holding: Holding) -> None:
         """Tell what becomes of HOLDING."""
-        if scheduler.session.hooks.listeners:
-            amount, of = holding.amount, holding.task
-            scheduler.lives.tell(
-                "resource", change=change, resource=self.name, amount=amount, of=of, left=self.left
-            )
+        amount, of = holding.amount, holding.task
+        scheduler.lives.tell(
+            "resource", change=change, resource=self.name, amount=amount, of=of, left=self.left
+        )
 
     def _stand_in_line(self, holding: Holding) -> None:
         """Let HOLDING wait behind all that are as important, and before the others."""

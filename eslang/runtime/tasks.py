@@ -15,7 +15,7 @@ from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Iterator
 from eslang.base.many import primary, values_list
 from eslang.base.symbols import Keyword, Value
 from eslang.runtime.events import Event
-from eslang.runtime.failures import Dynamic
+from eslang.runtime.failures import Dynamic, Form
 
 if TYPE_CHECKING:
     from eslang.runtime.events import Wait
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 READY, RUNNING, WAITING, SUCCEEDED, FAILED, ABORTED = map(
     Keyword, ("READY", "RUNNING", "WAITING", "SUCCEEDED", "FAILED", "ABORTED")
 )
-ENDED = (SUCCEEDED, FAILED, ABORTED)
 ANYWHERE = 10**9  # the level of an interrupt that cleanups do not hold off
 
 
@@ -45,13 +44,14 @@ class Extent:
 
     def is_suspended(self, dynamic: Dynamic) -> bool:
         """True while a procedure of a form around it answers a failure."""
-        for _, form in dynamic.answering[self.answers :]:
-            around = self.forms
-            while around is not None:
-                if around is form:
-                    return True
-                around = around.outer
-        return False
+        return any(self.is_within(form) for _, form in dynamic.answering[self.answers :])
+
+    def is_within(self, form: Form) -> bool:
+        """True if it was entered inside FORM."""
+        around = self.forms
+        while around is not None and around is not form:
+            around = around.outer
+        return around is not None
 
 
 class StandStill:

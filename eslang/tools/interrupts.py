@@ -104,11 +104,7 @@ class Turns:
         interp = self.interp
         if frame is None or (interp.clock.is_virtual and interp.ticks.pending is None):
             return
-        scheduler = interp.scheduler
-        scheduler.granted, scheduler.turns = (
-            scheduler.granted - scheduler.turns,
-            0,
-        )  # the driver is to look soon
+        interp.scheduler.hand_back()  # the driver is to look soon
         if frame.f_globals.get("%ticks") is interp.ticks and frame.f_code.co_code[frame.f_lasti] == ENTRY:
             interp.scheduler.safepoint()
 

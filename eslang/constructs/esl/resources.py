@@ -7,6 +7,7 @@ from eslang.base.failure import simple_error, type_error
 from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.many import many_of
+from eslang.base.number_kinds import is_number
 from eslang.base.running import running
 from eslang.base.shown import shown
 from eslang.base.suggest import nearest
@@ -63,8 +64,7 @@ def make_resource(name: Value, *options: Value) -> Value:
 
 def amount_of(value: Value, operator: str) -> Value:
     """VALUE, which is to be an amount."""
-    is_real = value.__class__ in (int, float) or value.__class__.__name__ == "Ratio"
-    if not is_real or not value > 0:
+    if not is_number(value) or not value > 0:
         raise type_error(value, "POSITIVE-REAL", Symbol.intern(operator.upper(), ESL))
     return value
 
@@ -137,7 +137,7 @@ def hold_resource(name: Value, amount: Value, options: Value, body: Any) -> Valu
     rest = [] if options is None else list(options)
     chosen = dict(zip(rest[::2], rest[1::2], strict=True))
     priority = chosen.get(PRIORITY, 0)
-    if priority.__class__ not in (int, float) and priority.__class__.__name__ != "Ratio":
+    if not is_number(priority):
         raise type_error(priority, "REAL", Symbol.intern("WITH-RESOURCE", ESL))
     resource = resource_named(name)
     claimed = amount_of(amount, "with-resource")

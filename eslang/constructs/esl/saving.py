@@ -52,11 +52,10 @@ def save_facts(file: Value, *relations: Value) -> Value:
     writer = Writer(written_in(image), "saved")
     lines = []
     for chosen in relations or (None,):
-        for relation in list(database.relations.values()):
-            if chosen is None or relation.name is chosen:
-                if relation.name is IN_PACKAGE and relation.rows:
-                    raise simple_error("in a file of facts this name means something else", IN_PACKAGE)
-                lines += [writer.text(relation.name, row) for row in relation.rows]
+        for relation in list(database.relations.values()) if chosen is None else database.named(chosen):
+            if relation.name is IN_PACKAGE and relation.rows:
+                raise simple_error("in a file of facts this name means something else", IN_PACKAGE)
+            lines += [writer.text(relation.name, row) for row in relation.rows]
     write_whole(path, header(image.package, len(lines)) + "".join([f"{line}\n" for line in lines]))
     return len(lines)
 

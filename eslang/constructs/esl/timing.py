@@ -10,6 +10,7 @@ from eslang.base.failure import Failure, type_error
 from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items, lisp_list
 from eslang.base.many import many_of
+from eslang.base.number_kinds import is_number
 from eslang.base.running import running
 from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, T, Value
@@ -40,8 +41,7 @@ LONGEST = 1e9  # seconds
 
 def seconds_of(value: Value, operator: str, *, above_zero: bool = False) -> float:
     """VALUE, which is to be a time in seconds."""
-    number = value.__class__ is int or value.__class__ is float or value.__class__.__name__ == "Ratio"
-    if not number or value < 0 or value != value or (above_zero and value == 0):
+    if not is_number(value) or value < 0 or value != value or (above_zero and value == 0):
         name = Symbol.intern(operator.upper(), CL if operator == "sleep" else ESL)
         raise type_error(value, "POSITIVE-REAL" if above_zero else "NON-NEGATIVE-REAL", name)
     return min(float(value), LONGEST)

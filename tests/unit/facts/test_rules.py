@@ -239,3 +239,13 @@ def test_a_long_chain_is_no_deep_recursion() -> None:
 def test_rules_over_strings_and_numbers() -> None:
     facts = with_rules(RIGHT, '(edge "a" 1.5)', '(edge 1.5 (b "c"))', '(edge (b "c") "a")')
     assert facts.answers('(reach "a" ?x)') == ["1.5", '(B "c")', '"a"']
+
+
+def test_a_head_with_anything_inside_a_term_names_it_when_it_is_asked_for() -> None:
+    facts = Asking("(q 1)")
+    facts.rule("((p (?_ ?x)) (q ?x))")
+    with pytest.raises(Failure) as caught:
+        facts.answers("(p ?t)")
+    assert caught.value.cause is UNBOUND
+    assert prin1(caught.value.arguments[0]) == "?_"
+    assert prin1(caught.value.arguments[1]) == "(P (?_ ?X))"
