@@ -94,7 +94,6 @@ class Interpreter:
         self.dynamic = Dynamic()  # of the task whose turn it is
         self.causes = Causes()
         self.goals = Patterns()
-        self.actions: set[Symbol] = set()  # of SCS: functions that end with an action
         self.resources: dict[Symbol, Resource] = {}
         self.locks: PropertyLocks | None = None  # made when first wanted
         self.runs = Runs(self, shuffled=shuffle, choices=choices, is_open=outside)

@@ -12,13 +12,13 @@ FLOORS = {
     "facts": 1,
     "lisp": 2,
     "constructs": 2,
-    "constructs.esl": 2,
-    "constructs.scs": 2,
     "devices": 2,
-    "interpreter": 3,  # and whatever else stands directly in eslang/
-    "eslang": 4,  # the front door, for those who embed us and for the tools
-    "tools": 5,
-    "__main__": 6,
+    "constructs.esl": 3,
+    "constructs.scs": 3,
+    "interpreter": 4,  # and whatever else stands directly in eslang/
+    "eslang": 5,  # the front door, for those who embed us and for the tools
+    "tools": 6,
+    "__main__": 7,
 }
 
 # A deferred import that closes a circle, and why it may.

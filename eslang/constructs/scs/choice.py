@@ -75,9 +75,9 @@ class Tries:
 
 @macro("(do-any &rest steps)", SCS)
 def do_any(form: Cons, environment: Any) -> Value:
-    """Do any of STEPS, as chance has it; when it fails, another, until one succeeds.
+    """Do any of STEPS, as chance has it; if it fails, another.
 
-    Modifiers may stand before STEPS, as in DO.
+    It goes on until one succeeds. Modifiers may stand before STEPS, as in DO.
 
     Returns: the value of the step that succeeds; :deactivated, if a modifier
              ends it, or nothing but deactivated steps are left.
@@ -156,16 +156,16 @@ def clauses_form(clauses: Value, environment: Any, within: str, valued: bool) ->
         test = lisp_list(LAMBDA, None, test_form(condition, environment))
         action = rest.car if rest is not None and rest.cdr is None else rest
         data = lisp_list(QUOTE, lisp_list(condition, action))
-        parts.append(lisp_list(LIST, data, test, utility, steps_form(rest)))
+        parts.append(lisp_list(LIST, data, test, utility, steps_form(rest, environment)))
         clauses = clauses.cdr
     return Cons(LIST, from_items(parts))
 
 
 @macro("(do-first &rest clauses)", SCS)
 def do_first(form: Cons, environment: Any) -> Value:
-    """Do the steps of the first of CLAUSES, each (CONDITION . STEPS), that holds.
+    """Do the steps of the first of CLAUSES whose condition holds.
 
-    After every action the conditions are asked: if an earlier one holds now,
+    A clause is (CONDITION . STEPS). After every action the conditions are asked: if an earlier one holds now,
     or that of the running clause does not any more, the steps are left where
     they are, and the choice is made anew. While no condition holds, it idles.
     Modifiers may stand before CLAUSES, as in DO.
@@ -189,7 +189,7 @@ def do_first(form: Cons, environment: Any) -> Value:
 
 @macro("(do*-first &rest clauses)", SCS)
 def do_star_first(form: Cons, environment: Any) -> Value:
-    """Do as DO-FIRST does, but steps that fail are tried again, as a T-R program does.
+    """Do as DO-FIRST does, but try steps that fail again.
 
     Returns: the value of the steps, when they succeed; :deactivated, if a
              modifier ends it, or nothing but deactivated steps are left.

@@ -23,11 +23,11 @@ ALL = Symbol.intern("%DO-ALL", SCS)
 
 @macro("(do-all &rest steps)", SCS)
 def do_all(form: Cons, environment: Any) -> Value:
-    """Do STEPS in parallel, one action at a time, in any order, as chance has it.
+    """Do STEPS in parallel, one action at a time, in any order.
 
-    It ends when all have ended; a step that is deactivated has ended. As soon
-    as one fails, the others are aborted. Modifiers may stand before STEPS, as
-    in DO.
+    After every action, chance says whose turn it is. It ends when all have
+    ended; a step that is deactivated has ended. As soon as one fails, the
+    others are aborted. Modifiers may stand before STEPS, as in DO.
 
     Returns: T; :deactivated, if a modifier ends it.
     Fails:   as the first of STEPS that fails.
@@ -46,7 +46,7 @@ def do_all(form: Cons, environment: Any) -> Value:
 
 @macro("(do*-all &rest steps)", SCS)
 def do_star_all(form: Cons, environment: Any) -> Value:
-    """Do as DO-ALL does, but steps that fail are tried again until they succeed.
+    """Do STEPS in parallel, as DO-ALL does; try those that fail again.
 
     Returns: T; :deactivated, if a modifier ends it.
     Waits:   until all STEPS have ended.

@@ -36,6 +36,7 @@ CONSTRUCTS = frozenset(  # whose last action has asked all conditions when they 
     for each in ("DO", "DO-ALL", "DO-ANY", "DO-FIRST", "DO-BEST", "REPEAT")
     for name in (each, each.replace("DO", "DO*") if each != "REPEAT" else "REPEAT*")
 ) | {Symbol.intern("ATOMIC", SCS)}
+IS_ACTION = "ends_with_an_action"  # an attribute of such functions
 ATOMIC_FORM, DO = (Symbol.intern(name, SCS) for name in ("ATOMIC", "DO"))
 
 
@@ -55,7 +56,10 @@ class Step(NamedTuple):
 
 def asks_itself(operator: Value) -> bool:
     """Whether a call of OPERATOR ends with an action that asks the conditions."""
-    return operator in CONSTRUCTS or operator in running.session.actions
+    if operator in CONSTRUCTS:
+        return True
+    called = operator and getattr(running.session.image.cell(operator), "function", None)
+    return hasattr(called, IS_ACTION)
 
 
 # --- the shape of constructs ---------------------------------------------------------
@@ -86,11 +90,13 @@ def parts_of(
     return Cons(LIST, from_items(modifiers)) if modifiers else None, rest
 
 
-def steps_form(forms: Value) -> Value:
+def steps_form(forms: Value, environment: Any) -> Value:
     """The form that gives the steps that FORMS are."""
     parts = []
     for form in items(forms):
         operator = form.car if form.__class__ is Cons and isinstance(form.car, Symbol) else None
+        if environment is not None and environment.find_function(operator) is not None:
+            operator = None  # a local function, whatever its name
         parts += [lisp_list(LAMBDA, None, form), lisp_list(QUOTE, operator)]
     return Cons(LIST, from_items(parts))
 
@@ -98,7 +104,7 @@ def steps_form(forms: Value) -> Value:
 def expand(function_name: Symbol, form: Cons, environment: Any, *more: Value) -> Value:
     """The call of FUNCTION-NAME for a construct of modifiers and steps."""
     modifiers, steps = parts_of(form, environment, str(form.car).lower())
-    return lisp_list(function_name, modifiers, steps_form(steps), *more)
+    return lisp_list(function_name, modifiers, steps_form(steps, environment), *more)
 
 
 def read_modifiers(modifiers: Value) -> list[tuple[str, Value, Any]]:
@@ -188,7 +194,7 @@ def run_atomic(body: Any) -> Value:
 
 @macro("(defaction name arguments &body body)", SCS)
 def defaction(form: Cons, environment: Any) -> Value:
-    """Define NAME as an atomic action: a function whose BODY nothing interrupts.
+    """Define NAME as a function that is one atomic action: BODY.
 
     Returns: NAME.
 
@@ -212,16 +218,16 @@ def defaction(form: Cons, environment: Any) -> Value:
 
 @function("(%note-action name)", SCS)
 def note_action(name: Symbol) -> Symbol:
-    """Remember that NAME is an action."""
-    running.session.actions.add(name)
+    """Remember that the function NAME ends with an action."""
+    setattr(running.session.image.cell(name).function, IS_ACTION, True)
     return name
 
 
 @macro("(defstep name arguments &body steps)", SCS)
 def defstep(form: Cons, environment: Any) -> Value:
-    """Define NAME as a step with ARGUMENTS: STEPS in order, as in (scs:do . STEPS).
+    """Define NAME as a step with ARGUMENTS: STEPS, in order.
 
-    It is expanded where it is called. Modifiers may stand before STEPS.
+    They are done as in (scs:do . STEPS). It is expanded where it is called. Modifiers may stand before STEPS.
 
     Returns: NAME.
 

@@ -55,9 +55,10 @@ def suspend() -> Value:
 
 @function("(resume task &rest values)", SCS)
 def resume(task: Value, *values: Value) -> Value:
-    """Let TASK, which has suspended itself, go on, with VALUES.
+    """Let TASK, which waits in SUSPEND, go on, with VALUES.
 
-    Returns: T, or NIL if TASK is not suspended: then nothing happens.
+    Returns: T, or NIL if TASK does not wait in SUSPEND: then nothing happens.
+    Fails:   :type-error if TASK is no task.
 
     Source: SCS §3, "Multiple Threads of Execution".
     """
@@ -72,9 +73,9 @@ def resume(task: Value, *values: Value) -> Value:
 
 @macro("(with-cycle frequency &rest steps)", SCS)
 def with_cycle(form: Cons, environment: Any) -> Value:
-    """Do STEPS in order, over and over, FREQUENCY times a second: (with-cycle (HZ) . STEPS).
+    """Do STEPS in order, over and over, HZ times a second.
 
-    Cycles begin when they are due on the clock. One that would begin while the
+    FREQUENCY is (HZ). Cycles begin when they are due on the clock. One that would begin while the
     one before still runs is skipped, and that is told (`period-missed`).
     Modifiers may stand before STEPS, as in DO.
 
