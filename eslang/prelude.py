@@ -65,7 +65,9 @@ ROOMS = [
     "eslang.constructs.esl.task_nets",
     "eslang.constructs.scs.steps",
     "eslang.constructs.scs.learning",
+    "eslang.constructs.scs.actions",
     "eslang.constructs.scs.choice",
+    "eslang.constructs.scs.clauses",
     "eslang.constructs.scs.threads",
     "eslang.constructs.scs.parallel",
     "eslang.constructs.esl.guardians",
@@ -96,6 +98,7 @@ FILES = [
     "devices",
     "spacecraft",
     "configuration",
+    "robot",
     "testing",
 ]
 AT_ONCE = ("conditions", "tasks", "widgets", "devices", "testing")  # these define more than operators

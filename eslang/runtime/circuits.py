@@ -12,7 +12,9 @@ from __future__ import annotations
 
 from eslang.base.control import Deactivated
 from eslang.base.hints import TYPE_CHECKING, Any, Callable
+from eslang.base.lists import from_items
 from eslang.base.running import running
+from eslang.base.symbols import Value
 from eslang.runtime.events import Wait
 from eslang.runtime.tasks import Extent, Interrupt, Task
 
@@ -66,15 +68,56 @@ class Level:
         self.live = self.extent.live = False
 
 
-def begin_action() -> None:
-    """An atomic action is about to begin: nothing may have changed since the levels were asked."""
+class Stage:
+    """One construct that is under way: how far it is, and why it does that, for those who look on."""
+
+    __slots__ = ("around", "condition", "number", "operator")
+
+    def __init__(self, operator: Value, around: Stage | None, number: int = 1) -> None:
+        self.operator = operator
+        self.around = around
+        self.number = number  # of the step that is under way
+        self.condition: list[Value] = []  # the one for which it was chosen
+
+    def path(self) -> list[Value]:
+        """It and all around it, outermost first, each (OPERATOR NUMBER [CONDITION])."""
+        found = []
+        stage: Stage | None = self
+        while stage is not None:
+            found.append(from_items([stage.operator, stage.number, *stage.condition]))
+            stage = stage.around
+        return found[::-1]
+
+
+def stage_here() -> Stage:
+    """The innermost construct that is under way."""
+    stage: Stage = running.session.dynamic.logical.stage
+    return stage
+
+
+def begin_action(action: Value) -> None:
+    """ACTION is about to begin: nothing may have changed since the levels were asked."""
     session = running.session
     dynamic = session.dynamic
+    if dynamic.masked:
+        return
     level: Level | None = dynamic.logical.circuit
-    if level is not None and not dynamic.masked:
+    if level is not None:
         for each in level.chain:
             if each.is_stale and not each.ask():
                 leave(session, each)
+    if session.hooks.listeners:
+        stage: Stage | None = dynamic.logical.stage
+        path = [] if stage is None else stage.path()
+        session.scheduler.lives.tell("action", action=action, path=path)
+
+
+def tell_deactivated(why: str, condition: Value = None) -> None:
+    """The innermost construct leaves what it does, or all of it."""
+    session = running.session
+    stage: Stage | None = session.dynamic.logical.stage
+    if session.hooks.listeners and stage is not None:
+        session.scheduler.lives.tell("deactivated", why=why, condition=condition, path=stage.path())
 
 
 def end_of_action() -> None:

@@ -44,6 +44,12 @@ WHY_INTERRUPT = Part(
 )
 INTERRUPT_BY = Part("by", "Task | None", "the task that it comes from; none for a clock's")
 WAKES = Part("wakes", "list[Task]", "the tasks that waited for it, in their order")
+PATH = Part(
+    "path",
+    "list[list]",
+    "the constructs that are under way there, outermost first, each (OPERATOR NUMBER [CONDITION]): "
+    "which of its steps, and the condition for which that was chosen",
+)
 RAISED = Part("raised", "Place | None", "where the failure was raised")
 
 TABLE = (
@@ -199,6 +205,24 @@ TABLE = (
             FAILURE,
             Part("waiting", "tuple[Waiting, ...]", "each task, what it waits for, where, and why in vain"),
             Part("to", "Task", "the task in which the failure is raised"),
+        ),
+    ),
+    # --- circuits (SCS)
+    Kind("action", "an atomic action is about to begin", HERE, (Part("action", "value", "the action"), PATH)),
+    Kind(
+        "deactivated",
+        "a construct leaves what it is at, because of a condition",
+        HERE,
+        (
+            Part(
+                "why",
+                "str",
+                "`when`, `unless`, `while`, `until`: that modifier ends it; `condition`: that of the running "
+                "clause does not hold any more; `earlier`: an earlier one holds; "
+                "`alternatives`: none is left that could run",
+            ),
+            Part("condition", "value | None", "the condition"),
+            PATH,
         ),
     ),
     # --- goals and the run

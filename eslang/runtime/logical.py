@@ -15,7 +15,8 @@ class Logical(NamedTuple):
 
     query: whose solutions are gone through; inquiry: what notes the reads of a
     condition; circuit: the innermost construct that goes on while a condition holds;
-    learned: the choice to which a reinforcement would be due.
+    learned: the choice to which a reinforcement would be due; stage: the innermost
+    construct of SCS that is under way.
     """
 
     bindings: dict[Symbol, Value]
@@ -23,11 +24,16 @@ class Logical(NamedTuple):
     inquiry: Any = None
     circuit: Any = None
     learned: Any = None
+    stage: Any = None
 
     def within(self, bindings: dict[Symbol, Value], query: Any = None) -> Logical:
         """The same, with more BINDINGS in force, and the innermost QUERY if that is told."""
         made = {**self.bindings, **bindings}, query or self.query, *self[2:]
         return tuple.__new__(Logical, made)  # at each solution of a query: the short way
+
+    def entered(self, stage: Any) -> Logical:
+        """The same, within one more construct of SCS: the short way, too."""
+        return tuple.__new__(Logical, (*self[:-1], stage))
 
 
 NOTHING_BOUND = Logical({})

@@ -22,6 +22,8 @@ INSTANTS = {
     "abort",
     "deadlock",
     "goal",
+    "action",
+    "deactivated",
     "fact",
     "lock",
     "resource",

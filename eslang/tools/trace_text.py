@@ -34,6 +34,8 @@ SIGNS = {
     "abort": "⊘",
     "signal": "▸",
     "checkpoint": "▸",
+    "action": "»",
+    "deactivated": "«",
     "fact": "+",
     "lock": "▪",
     "resource": "▪",

@@ -201,6 +201,30 @@ def _resource(told: dict[str, Any]) -> str:
     return sentences.get(told["change"], f"{told['change']} {claim}")
 
 
+def _path(told: dict[str, Any]) -> str:
+    """The constructs that are under way, outermost first."""
+    return " › ".join(str(stage)[1:-1] for stage in list_of(told["path"]))
+
+
+def _action(told: dict[str, Any]) -> str:
+    path = _path(told)
+    return f"does {value_text(told['action'])}" + (f", in {path}" if path else "")
+
+
+def _deactivated(told: dict[str, Any]) -> str:
+    condition = value_text(told["condition"])
+    reasons = {
+        "condition": f"{condition} does not hold any more",
+        "earlier": f"{condition} holds",
+        "alternatives": "no alternative is left",
+        "while": f"{condition} does not hold",
+        "when": f"{condition} does not hold",
+        "until": f"{condition} holds",
+        "unless": f"{condition} holds",
+    }
+    return f"leaves {_path(told)}: {reasons.get(told['why'], told['why'])}"
+
+
 def _deadlock(told: dict[str, Any]) -> str:
     return f"deadlock of {listed([each.get('task') for each in told['waiting']])}: nothing can wake them"
 
@@ -227,6 +251,8 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "cleanup-started": lambda told: "cleans up",
     "cleanup-ended": lambda told: "leaves its cleanup" if told["left"] else "has cleaned up",
     "deadlock": _deadlock,
+    "action": _action,
+    "deactivated": _deactivated,
     "goal": _goal,
     "fact": lambda told: f"{'asserts' if told['added'] else 'retracts'} {value_text(told['fact'])}",
     "lock": _lock,

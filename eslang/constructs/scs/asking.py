@@ -7,14 +7,18 @@ one that asks Lisp, once after each action.
 from __future__ import annotations
 
 from eslang.base.control import Deactivated
-from eslang.base.hints import Any, Callable, Iterable
+from eslang.base.hints import TYPE_CHECKING, Callable, Iterable
+from eslang.base.lists import items
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.constructs.watching import Inquiry
 from eslang.runtime import failures
-from eslang.runtime.circuits import Level
+from eslang.runtime.circuits import Level, Stage, tell_deactivated
 from eslang.runtime.events import Wait
 from eslang.runtime.polls import CONDITION
+
+if TYPE_CHECKING:
+    from eslang.runtime.logical import Logical
 
 DEACTIVATED = Keyword("DEACTIVATED")  # what a step gives that neither succeeded nor failed
 LEFT: Value = object()  # what a level gives whose conditions do not hold any more
@@ -122,7 +126,7 @@ class Asker:
         finally:
             level.end()
             self.level = None
-            dynamic.logical = outer
+            back_to(outer)
 
     def idle(self, of: Value, among: Iterable[Asked]) -> None:
         """Wait until one of the conditions AMONG holds."""
@@ -147,31 +151,52 @@ class Asker:
             each.inquiry.end()
 
 
-def run_under(modifiers: Any, body: Callable[[], Value]) -> Value:
-    """What BODY gives under MODIFIERS, each (kind condition test); DEACTIVATED if one does not hold."""
-    if not modifiers:
-        return body()
+def run_under(operator: Value, modifiers: Value, body: Callable[[], Value]) -> Value:
+    """What BODY of the construct OPERATOR gives under MODIFIERS; DEACTIVATED if one does not hold."""
+    dynamic = running.session.dynamic
+    outer = dynamic.logical
+    dynamic.logical = outer.entered(Stage(operator, outer.stage))
+    try:
+        return body() if modifiers is None else _run_modified(modifiers, body)
+    finally:
+        back_to(outer)
+
+
+def back_to(outer: Logical) -> None:
+    """What was in force before is so again; but the last choice that could be reinforced stays known."""
+    dynamic = running.session.dynamic
+    learned = dynamic.logical.learned
+    dynamic.logical = outer if learned is outer.learned else outer._replace(learned=learned)
+
+
+def _run_modified(modifiers: Value, body: Callable[[], Value]) -> Value:
     asker = Asker()
     dynamic = running.session.dynamic
     outer = dynamic.logical
-    lasting: list[Asked] = []
+    lasting: list[tuple[str, Asked]] = []
     try:
         bindings: Bindings = {}
-        for kind, condition, test in modifiers:
-            asked = asker.ask(condition, test, kind in ("UNTIL", "UNLESS"))
+        for kind, condition, test in map(items, items(modifiers)):
+            asked = asker.ask(condition, test, kind.name in ("UNTIL", "UNLESS"))
             dynamic.logical = outer.within(bindings)
             if not asked.holds():
+                tell_deactivated(kind.name.lower(), condition)
                 return DEACTIVATED
             bindings.update(asked.bindings)
-            if kind in ("WHILE", "UNTIL"):
-                lasting.append(asked)
+            if kind.name in ("WHILE", "UNTIL"):
+                lasting.append((kind.name, asked))
             else:
                 asked.inquiry.end()
         dynamic.logical = outer.within(bindings)
         if not lasting:
             return body()
-        value = asker.run(lasting, lambda: all(each.holds() for each in lasting), bindings, body)
-        return DEACTIVATED if value is LEFT else value
+        on = [asked for _, asked in lasting]
+        value = asker.run(on, lambda: all(each.holds() for each in on), bindings, body)
+        if value is not LEFT:
+            return value
+        back_to(outer)
+        kind, ended = next(each for each in lasting if not each[1].value)
+        tell_deactivated(kind.lower(), ended.condition)
+        return DEACTIVATED
     finally:
-        dynamic.logical = outer
         asker.end()

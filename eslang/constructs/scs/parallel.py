@@ -12,9 +12,9 @@ from eslang.base.running import running
 from eslang.base.symbols import Symbol, T, Value
 from eslang.compile.registry import SCS, function, macro
 from eslang.constructs.scs.asking import run_under
-from eslang.constructs.scs.steps import Step, expand, persist, read_modifiers, read_steps
+from eslang.constructs.scs.stepping import Step, expand, persist, read_steps
 from eslang.runtime import failures
-from eslang.runtime.circuits import Level
+from eslang.runtime.circuits import Level, Stage, stage_here
 from eslang.runtime.lives import passed_on
 from eslang.runtime.nets import Net, all_must_succeed
 
@@ -63,11 +63,11 @@ def do_star_all(form: Cons, environment: Any) -> Value:
     return expand(ALL, form, environment, T)
 
 
-@function("(%do-all modifiers steps starred)", SCS)
-def do_all_of(modifiers: Value, steps: Value, starred: Value) -> Value:
+@function("(%do-all operator modifiers steps starred)", SCS)
+def do_all_of(operator: Value, modifiers: Value, steps: Value, starred: Value) -> Value:
     """DO-ALL, or DO*-ALL if STARRED."""
     listed = read_steps(steps)
-    return run_under(read_modifiers(modifiers), lambda: run_all(listed, starred is not None))
+    return run_under(operator, modifiers, lambda: run_all(listed, starred is not None))
 
 
 def run_all(steps: list[Step], starred: bool) -> Value:
@@ -76,9 +76,9 @@ def run_all(steps: list[Step], starred: bool) -> Value:
     scheduler = session.scheduler
     net = Net(scheduler, all_must_succeed)
     parent = scheduler.at_work()
-    for step in steps:
+    for number, step in enumerate(steps, 1):
         name = str(step.operator or "step").lower()
-        net.members.append(scheduler.lives.create(name, branch(step, starred), parent))
+        net.members.append(scheduler.lives.create(name, branch(number, step, starred), parent))
     session.chance.shuffle(net.members)
     dynamic = parent.dynamic
     outer = dynamic.logical
@@ -95,6 +95,13 @@ def run_all(steps: list[Step], starred: bool) -> Value:
     return T
 
 
-def branch(step: Step, starred: bool) -> Callable[[], Value]:
+def branch(number: int, step: Step, starred: bool) -> Callable[[], Value]:
     """What the task of one of the steps does."""
-    return (lambda: persist(step.run)) if starred else step.run
+
+    def body() -> Value:
+        dynamic = running.session.dynamic
+        whole = stage_here()
+        dynamic.logical = dynamic.logical.entered(Stage(whole.operator, whole.around, number))
+        return persist(step.run) if starred else step.run()
+
+    return body

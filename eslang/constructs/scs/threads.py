@@ -15,9 +15,9 @@ from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, Value, truth
 from eslang.compile.registry import SCS, function, macro
 from eslang.constructs.scs.asking import run_under
-from eslang.constructs.scs.steps import expand, in_order, read_modifiers, read_steps
+from eslang.constructs.scs.stepping import expand, in_order, read_steps
 from eslang.constructs.shapes import refuse
-from eslang.runtime.circuits import end_of_action
+from eslang.runtime.circuits import end_of_action, stage_here
 from eslang.runtime.events import Event, Wait
 from eslang.runtime.periods import Periods
 from eslang.runtime.tasks import Task
@@ -98,8 +98,8 @@ def with_cycle(form: Cons, environment: Any) -> Value:
     return expand(CYCLE, Cons(form.car, form.cdr.cdr), environment, frequency.car)
 
 
-@function("(%do-in-cycles modifiers steps frequency)", SCS)
-def do_in_cycles(modifiers: Value, steps: Value, frequency: Value) -> Value:
+@function("(%do-in-cycles operator modifiers steps frequency)", SCS)
+def do_in_cycles(operator: Value, modifiers: Value, steps: Value, frequency: Value) -> Value:
     """Do STEPS FREQUENCY times a second."""
     listed = read_steps(steps)
     is_real = frequency.__class__ in (int, float) or frequency.__class__.__name__ == "Ratio"
@@ -108,9 +108,10 @@ def do_in_cycles(modifiers: Value, steps: Value, frequency: Value) -> Value:
 
     def body() -> Value:
         periods = Periods(running.session.scheduler, 1 / float(frequency))
+        stage = stage_here()
         while True:
-            in_order(listed, False)
+            in_order(listed, False, stage)
             periods.wait()
             end_of_action()
 
-    return run_under(read_modifiers(modifiers), body)
+    return run_under(operator, modifiers, body)

@@ -12,6 +12,7 @@ const MARKS = { // kind: [colour, shape, rank]
   "run-stopped": ["bad", "bar", 8], "recovery": ["recover", "turn", 7], "failure-taken": ["recover", "turn", 7],
   "interrupt": ["interrupt", "bolt", 6], "abort": ["abort", "stop", 6], "period-missed": ["recover", "dot", 5],
   "goal": ["goal", "flag", 4], "checkpoint": ["signal", "box", 3], "signal": ["signal", "wedge", 3],
+  "deactivated": ["abort", "dot", 3], "action": ["signal", "dot", 1],
   "fact": ["fact", "ring", 2], "lock": ["goal", "ring", 2], "resource": ["goal", "ring", 2],
 };
 const ENDS = { succeeded: ["good", "tick"], failed: ["bad", "cross"], aborted: ["abort", "stop"] };
@@ -22,7 +23,7 @@ const LEGEND = [
   ["arrow", "start", "starts"], ["arrow", "join", "end awaited"], ["mark", "failure", "failure"],
   ["mark", "recovery", "recovery"], ["mark", "signal", "signal"], ["mark", "checkpoint", "checkpoint"],
   ["mark", "failure-passed", "failure of another"], ["mark", "period-missed", "period missed"], ["mark", "run-stopped", "run stopped"],
-  ["mark", "goal", "goal"], ["mark", "fact", "fact"], ["mark", "lock", "property lock"], ["mark", "resource", "resource"], ["end", "succeeded", "succeeded"], ["end", "aborted", "aborted"],
+  ["mark", "goal", "goal"], ["mark", "fact", "fact"], ["mark", "action", "action"], ["mark", "deactivated", "deactivated"], ["mark", "lock", "property lock"], ["mark", "resource", "resource"], ["end", "succeeded", "succeeded"], ["end", "aborted", "aborted"],
 ];
 const state = { scale: "balanced", from: 0, to: 1, hover: null, chosen: null, off: new Set(), shut: new Set(), find: "", row: 26 };
 const head = $("head"), lanes = $("lanes"), scroll = $("scroll"), tip = $("tip"), more = $("more");

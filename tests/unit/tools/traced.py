@@ -40,6 +40,7 @@ EVERY_KIND = """
 (task-net (a (wait-until (at robot dock))) (b (yield) (assert '(at robot dock))))
 (define-resource power :capacity 5)
 (with-resource (power 3) (sleep 1))
+(scs:do (scs:do :when (> 1 2) (princ "never")) (princ "once"))
 (fail :over)
 (task-net (a (checkpoint-wait b :never)) (b (checkpoint-wait a :never)))
 (quit 3)

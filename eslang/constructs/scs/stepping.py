@@ -1,0 +1,154 @@
+"""What all constructs of SCS have in common: their shape, and the running of a step (SCS Appendix C).
+
+A step succeeds by returning, fails by FAIL, or is deactivated, which is
+neither: then it gives :DEACTIVATED. Between two actions the energizing
+conditions around them are asked (runtime/circuits.py).
+"""
+
+from __future__ import annotations
+
+from eslang.base.failure import Failure
+from eslang.base.hints import Any, Callable, Iterator, NamedTuple
+from eslang.base.lists import Cons, from_items, items, lisp_list
+from eslang.base.running import running
+from eslang.base.shown import shown
+from eslang.base.symbols import Keyword, Symbol, Value
+from eslang.compile.registry import CL, SCS
+from eslang.constructs.conditions import test_form
+from eslang.constructs.scs.asking import DEACTIVATED
+from eslang.constructs.shapes import refuse
+from eslang.runtime import failures
+from eslang.runtime.circuits import Stage, begin_action, end_of_action
+from eslang.runtime.failures import Clause, Form
+
+LAMBDA, LIST, QUOTE = (Symbol.intern(name, CL) for name in ("LAMBDA", "LIST", "QUOTE"))
+MODIFIERS = ("WHILE", "UNTIL", "WHEN", "UNLESS")
+CONSTRUCTS = frozenset(  # whose last action has asked all conditions when they end
+    Symbol.intern(name, SCS)
+    for each in ("DO", "DO-ALL", "DO-ANY", "DO-FIRST", "DO-BEST", "REPEAT")
+    for name in (each, each.replace("DO", "DO*") if each != "REPEAT" else "REPEAT*")
+) | {Symbol.intern("ATOMIC", SCS)}
+IS_ACTION = "ends_with_an_action"  # an attribute of such functions
+
+
+class Step(NamedTuple):
+    """One step of a construct: what it does, its form (of other constructs only the name), its operator."""
+
+    body: Callable[[], Value]
+    form: Value
+    operator: Value
+
+    def run(self) -> Value:
+        """Do it; then the conditions around are asked, unless an action at its end has done so."""
+        asks = asks_itself(self.operator)
+        if not asks:
+            begin_action(self.form)
+        value = self.body()
+        if value is DEACTIVATED or not asks:
+            end_of_action()
+        return value
+
+
+def asks_itself(operator: Value) -> bool:
+    """Whether a call of OPERATOR ends with an action that asks the conditions."""
+    if operator in CONSTRUCTS:
+        return True
+    called = operator and getattr(running.session.image.cell(operator), "function", None)
+    return hasattr(called, IS_ACTION)
+
+
+# --- the shape of constructs ---------------------------------------------------------
+
+
+def parts_of(
+    form: Cons, environment: Any, within: str, options: dict[str, Value] | None = None
+) -> tuple[Value, Value]:
+    """The form that gives the modifiers of FORM, and the rest of its body; OPTIONS get their values."""
+    modifiers: list[Value] = []
+    rest = form.cdr
+    while rest.__class__ is Cons and isinstance(rest.car, Keyword):
+        keyword = rest.car
+        if options is not None and keyword.name in options and rest.cdr is not None:
+            options[keyword.name] = rest.cdr.car
+            rest = rest.cdr.cdr
+            continue
+        if keyword.name not in MODIFIERS:
+            wrong = f"`{shown(keyword)}` is no modifier of a step"
+            hint = "write `:while`, `:until`, `:when` or `:unless`, and a condition"
+            refuse(environment, "malformed-step", wrong, rest, hint=hint, within=within)
+        if rest.cdr is None:
+            refuse(environment, "malformed-step", f"`{shown(keyword)}` has no condition", rest, within=within)
+        condition = rest.cdr.car
+        test = lisp_list(LAMBDA, None, test_form(condition, environment))
+        modifiers.append(lisp_list(LIST, keyword, lisp_list(QUOTE, condition), test))
+        rest = rest.cdr.cdr
+    return Cons(LIST, from_items(modifiers)) if modifiers else None, rest
+
+
+def steps_form(forms: Value, environment: Any) -> Value:
+    """The form that gives the steps that FORMS are."""
+    parts = []
+    for form in items(forms):
+        operator = form.car if form.__class__ is Cons and isinstance(form.car, Symbol) else None
+        if environment is not None and environment.find_function(operator) is not None:
+            operator = None  # a local function, whatever its name
+        shown_form = Cons(operator, None) if operator in CONSTRUCTS else form
+        parts += [lisp_list(LAMBDA, None, form), lisp_list(QUOTE, shown_form), lisp_list(QUOTE, operator)]
+    return Cons(LIST, from_items(parts))
+
+
+def expand(function_name: Symbol, form: Cons, environment: Any, *more: Value) -> Value:
+    """The call of FUNCTION-NAME for a construct of modifiers and steps."""
+    modifiers, steps = parts_of(form, environment, str(form.car).lower())
+    return call_of(function_name, form, modifiers, steps_form(steps, environment), *more)
+
+
+def call_of(function_name: Symbol, form: Cons, *parts: Value) -> Value:
+    """The call of FUNCTION-NAME for FORM, of which it knows the operator."""
+    return lisp_list(function_name, lisp_list(QUOTE, form.car), *parts)
+
+
+def read_steps(steps: Value) -> list[Step]:
+    """Steps as Python has them."""
+    parts = items(steps)
+    return [Step(*parts[index : index + 3]) for index in range(0, len(parts), 3)]
+
+
+# --- outcomes ------------------------------------------------------------------------
+
+
+EVERY_FAILURE = (Clause(None, None, None, takes=lambda failure: True),)
+
+
+def attempt(body: Callable[[], Value]) -> Value:
+    """What BODY gives; its failure, a Failure, if it fails and nothing inside answers that."""
+    form = Form()
+
+    def take(failure: Failure) -> None:
+        failures.abort(form, failure)
+
+    return failures.run_form(form, EVERY_FAILURE, (take,), body)
+
+
+def persist(body: Callable[[], Value]) -> Value:
+    """What BODY gives when it does not fail; until then it is tried again."""
+    rounds: Iterator[None] = running.session.ticks.source
+    while True:
+        value = attempt(body)
+        if value.__class__ is not Failure:
+            return value
+        end_of_action()
+        next(rounds)
+        rounds = running.session.ticks.source
+
+
+def in_order(steps: list[Step], starred: bool, stage: Stage | None = None) -> Value:
+    """Run STEPS, which STAGE counts; the value of the last one, NIL if that was deactivated."""
+    value: Value = None
+    stage = stage or Stage(None, None)
+    for number, step in enumerate(steps, 1):
+        stage.number = number
+        value = persist(step.run) if starred else step.run()
+    if not steps:
+        end_of_action()
+    return None if value is DEACTIVATED else value
