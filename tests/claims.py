@@ -19,7 +19,7 @@ INTRODUCTION = """\
 
 This page is made from `tests/conformance/claims.toml`, the files beside it, the transcripts,
 and some tests in Python.
-ESL is [Gat 1996]; ARM is [Gat and Pell 1998].
+ESL is [Gat 1996]; ARM is [Gat and Pell 1998]; SCS is [Lee and Durfee 1995].
 LR is the language reference, where it decides what the papers leave open.
 A sentence is quoted as printed, hyphenation undone.
 Where the second paper prints a sentence of the first again, its row points there.
