@@ -7,7 +7,7 @@ from eslang.base.hints import TYPE_CHECKING
 from eslang.base.image import PACKAGE, Image
 from eslang.base.symbols import Symbol
 from eslang.compile.registry import DEFINITIONS, Definition
-from eslang.devices import spacecraft, widget
+from eslang.devices import gym, spacecraft, widget
 
 if TYPE_CHECKING:
     from eslang.interpreter import Interpreter
@@ -29,6 +29,7 @@ def furnish(session: Interpreter) -> None:
     image.cell(PACKAGE).value = image.packages["ESL-USER"]
     widget.install(session)
     spacecraft.install(session)
+    gym.install(session)
 
 
 def furnish_definition(image: Image, definition: Definition) -> None:

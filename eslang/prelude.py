@@ -99,6 +99,7 @@ FILES = [
     "spacecraft",
     "configuration",
     "robot",
+    "environments",
     "testing",
 ]
 AT_ONCE = ("conditions", "tasks", "widgets", "devices", "testing")  # these define more than operators

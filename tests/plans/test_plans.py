@@ -2,7 +2,8 @@
 
 What a plan must print stands beside it, in a file of the same name that ends
 in `.expected`. A plan whose meaning the papers fix prints the same under every
-seed.
+seed. A plan without such a file acts in a world that others wrote, and has
+tests of its own (`tests/unit/devices/test_gym.py`).
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ from eslang.tools.cli import main
 ROOT = Path(__file__).resolve().parents[2]
 PLANS = sorted((ROOT / "plans").glob("*/[0-9]*.esl"))
 TRANSCRIPTS = ("widget-physics.transcript", "recovery-demo.transcript")
+WHOLE = [plan for plan in PLANS if plan.stem != "08-lunar-lander"]  # those of our own worlds
 every_plan = pytest.mark.parametrize("plan", PLANS, ids=lambda plan: plan.stem)
+every_whole_plan = pytest.mark.parametrize("plan", WHOLE, ids=lambda plan: plan.stem)
 
 
 def expected(plan: Path) -> str:
@@ -28,7 +31,7 @@ def expected(plan: Path) -> str:
     return plan.with_suffix(".expected").read_text(encoding="utf-8")
 
 
-@every_plan
+@every_whole_plan
 @pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 1996))])
 @pytest.mark.parametrize("order", [[], ["--shuffle"]], ids=["in-turn", "shuffled"])
 def test_a_plan_prints_what_stands_beside_it(
@@ -41,7 +44,7 @@ def test_a_plan_prints_what_stands_beside_it(
 
 
 @pytest.mark.slow
-@every_plan
+@every_whole_plan
 def test_a_plan_prints_the_same_from_the_command(plan: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "eslang", "run", "--clock", "virtual", plan.relative_to(ROOT).as_posix()],
