@@ -15,6 +15,7 @@ from eslang.base.symbols import Symbol, Value
 from eslang.constructs.esl.events import signal_event
 from eslang.primitives import run_python
 from eslang.runtime.events import Event
+from eslang.runtime.lives import SPAWNED
 
 if TYPE_CHECKING:
     from eslang.interpreter import Interpreter
@@ -66,7 +67,7 @@ def post_call(session: Interpreter, function: Callable[..., object] | Symbol, *a
     def begin() -> None:
         task = lives.create(name, body)
         task.is_root = True
-        lives.start(task, "spawned")
+        lives.start(task, SPAWNED)
 
     session.scheduler.post(begin)
 

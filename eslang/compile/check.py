@@ -45,6 +45,8 @@ DEFINITIONS = frozenset(
         "DEFRELATION",
         "DEFPROPERTY",
         "DEFRULE",
+        "DEFACTION",
+        "DEFSTEP",
     ]
 )
 

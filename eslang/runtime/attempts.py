@@ -1,6 +1,7 @@
 """Attempts: work whose own failure is somebody else's news.
 
-Who achieves a property for others (ARM §4) has to tell them when that fails.
+Who achieves a property for others (ARM §4) has to tell them when that fails;
+a construct of SCS, which of its steps have failed.
 The failure counts as that of the work if nothing inside answers it. What an
 interrupt brings that belongs to something farther out, such as a deadline, is
 no failure of the work: it goes outward, as if the work were not there.
@@ -19,6 +20,17 @@ from eslang.runtime.tasks import Extent, Interrupt, Task
 
 def attempt(task: Task, work: Callable[[], object]) -> Failure | None:
     """Let TASK, the current one, do WORK; the failure that it ends with, if it does."""
+
+    def done() -> Value:
+        work()
+        return None
+
+    failure: Failure | None = outcome(task, done)
+    return failure
+
+
+def outcome(task: Task, work: Callable[[], Value]) -> Value:
+    """Let TASK, the current one, do WORK; what that gives, or the failure that it ends with."""
     form, before = Form(), len(task.obeying)
 
     def is_own(failure: Failure) -> bool:
@@ -27,13 +39,8 @@ def attempt(task: Task, work: Callable[[], object]) -> Failure | None:
     def take(failure: Value) -> Value:
         raise Abort(form, failure)
 
-    def done() -> Value:
-        work()
-        return None
-
     clause = Clause(GENERAL_FAILURE, None, None, is_own)
-    failure: Failure | None = failures.run_form(form, (clause,), (take,), done)
-    return failure
+    return failures.run_form(form, (clause,), (take,), work)
 
 
 def comes_from_outside(interrupt: Interrupt, form: Form) -> bool:

@@ -15,6 +15,8 @@ from eslang.base.hints import TYPE_CHECKING, Any, Callable
 from eslang.base.lists import from_items
 from eslang.base.running import running
 from eslang.base.symbols import Value
+from eslang.runtime import failures
+from eslang.runtime.attempts import outcome
 from eslang.runtime.events import Wait
 from eslang.runtime.tasks import Extent, Interrupt, Task
 
@@ -25,10 +27,22 @@ if TYPE_CHECKING:
 class Level:
     """One entrance of a construct that is active while something holds."""
 
-    __slots__ = ("chain", "extent", "holds", "is_branch", "is_stale", "live", "logical", "polls", "task")
+    __slots__ = (
+        "call",
+        "extent",
+        "holds",
+        "is_branch",
+        "is_stale",
+        "live",
+        "logical",
+        "outer",
+        "polls",
+        "task",
+    )
 
     def __init__(self, task: Task, logical: Logical, holds: Callable[[], bool]) -> None:
         outer: Level | None = logical.circuit
+        self.outer = outer
         self.task = task
         self.logical = logical  # what was in force around it
         self.holds = holds
@@ -37,31 +51,60 @@ class Level:
         self.is_branch: bool = outer is not None and outer.is_branch  # others take turns with it
         self.live = True
         self.extent = Extent(task.dynamic)
-        self.chain: tuple[Level, ...] = (*outer.chain, self) if outer is not None else (self,)
+        self.call: Interrupt | None = None  # what lets its task ask, should it wait
 
     def stir(self, change: object = None) -> None:
         """What it rests on has changed: it is to be asked, at once if its task waits."""
         if self.is_stale or not self.live:
             return
         self.is_stale = True
-        scheduler = running.session.scheduler
-        if scheduler.current is not self.task:
-            scheduler.interrupt(self.task, Interrupt("circuit", self.ask_again, self.extent))
+        self.call = Interrupt("circuit", self.ask, self.extent, at_waits=True)
+        scheduler, task = running.session.scheduler, self.task
+        if scheduler.current is task:  # it may wait before the action has ended
+            task.interrupts = [*task.interrupts, self.call]
+        else:
+            scheduler.interrupt(task, self.call)
 
-    def ask_again(self) -> None:
-        """Leave it, if it does not hold any more. Raises Deactivated."""
-        if self.live and self.is_stale and not self.ask():
-            raise Deactivated(self)
-
-    def ask(self) -> bool:
-        """Whether it still holds."""
+    def settle(self) -> None:
+        """It is asked now: nothing else has to have it asked."""
         self.is_stale = False
-        dynamic = running.session.dynamic
-        here, dynamic.logical = dynamic.logical, self.logical
+        call, self.call = self.call, None
+        if call is not None and call in self.task.interrupts:
+            self.task.interrupts = [each for each in self.task.interrupts if each is not call]
+
+    def ask(self) -> None:
+        """Leave all inside if it does not hold any more. A failure of the asking is the construct's."""
+        session = running.session
+        dynamic, task = session.dynamic, session.scheduler.at_work()
+        is_mine = self.task is task
+        logical, forms = dynamic.logical, dynamic.forms
+        self.settle()
+        dynamic.logical = self.logical
+        if is_mine:
+            dynamic.forms = self.extent.forms
         try:
-            return self.holds()
+            holds = failures.guarded(self.holds) if is_mine else outcome(task, self.holds)
         finally:
-            dynamic.logical = here
+            dynamic.logical, dynamic.forms = logical, forms
+        if holds is not True:
+            if is_mine:
+                raise Deactivated(self)
+            self.leave_from_inside(holds)
+
+    def leave_from_inside(self, holds: Value) -> None:
+        """Let its task leave it, or fail in it if HOLDS is a failure; that ends the one that is at work."""
+        session = running.session
+        task = session.scheduler.at_work()
+        self.is_stale = True
+
+        def leave() -> None:
+            if holds is False:
+                raise Deactivated(self)
+            session.dynamic.forms = self.extent.forms
+            failures.signal(holds, continuable=False)
+
+        session.scheduler.interrupt(self.task, Interrupt("circuit", leave, self.extent))
+        session.scheduler.wait(Wait(task, "deactivated", self.task))
 
     def end(self) -> None:
         """It is left."""
@@ -101,11 +144,7 @@ def begin_action(action: Value) -> None:
     dynamic = session.dynamic
     if dynamic.masked:
         return
-    level: Level | None = dynamic.logical.circuit
-    if level is not None:
-        for each in level.chain:
-            if each.is_stale and not each.ask():
-                leave(session, each)
+    ask_all(dynamic.logical.circuit, polled=False)
     if session.hooks.listeners:
         stage: Stage | None = dynamic.logical.stage
         path = [] if stage is None else stage.path()
@@ -129,23 +168,18 @@ def end_of_action() -> None:
         return
     if level.is_branch:
         take_turns(session)
-    for each in level.chain:
-        if (each.is_stale or each.polls) and not each.ask():
-            leave(session, each)
+    ask_all(level, polled=True)
 
 
-def leave(session: Any, level: Level) -> None:
-    """Leave everything inside LEVEL; if that belongs to another task, wait for what it makes of this one."""
-    task = session.scheduler.at_work()
-    if level.task is task:
-        raise Deactivated(level)
-    level.is_stale = True
-
-    def deactivate() -> None:
-        raise Deactivated(level)
-
-    session.scheduler.interrupt(level.task, Interrupt("circuit", deactivate, level.extent))
-    session.scheduler.wait(Wait(task, "deactivated", level.task))
+def ask_all(level: Level | None, *, polled: bool) -> None:
+    """Ask LEVEL and those around it, outermost first, if they can have changed."""
+    found = []
+    while level is not None:
+        if level.is_stale or (polled and level.polls):
+            found.append(level)
+        level = level.outer
+    for each in reversed(found):
+        each.ask()
 
 
 def take_turns(session: Any) -> None:

@@ -29,6 +29,7 @@ SPARE = 64  # stacks that are kept for tasks to come
 NESTED = 20_000  # tasks inside one another; it is found out now and then only, and before memory is used up
 OBEYING = 500  # interrupts of one task inside one another: the ends of time slices use the stack of C
 UNSEEN = 16  # failed tasks that an owner remembers until somebody looks at them
+SPAWNED = "spawned"  # the role of a task that outlives the form that it stands in
 LEAVING = "leaving"  # the kind of a wait for the end of one that was aborted, which nothing cuts short
 
 
@@ -73,9 +74,11 @@ class Lives:
     def start(self, task: Task, role: str) -> None:
         """Let TASK, which belongs to its parent or else to the run, have its first turn.
 
-        It begins with the dynamic bindings of the current task.
+        It begins with the dynamic bindings of the current task. What is
+        spawned outlives the form that it stands in, and so is in no circuit.
         """
-        task.dynamic.logical = self.session.dynamic.logical
+        logical = self.session.dynamic.logical
+        task.dynamic.logical = logical.outside_circuits() if role == SPAWNED else logical
         if self.session.bindings.hidden is not None:
             task.kept = self.session.bindings.copy(), 0
         owner = task.parent

@@ -35,5 +35,9 @@ class Logical(NamedTuple):
         """The same, within one more construct of SCS: the short way, too."""
         return tuple.__new__(Logical, (*self[:-1], stage))
 
+    def outside_circuits(self) -> Logical:
+        """The same bindings, outside all constructs of SCS."""
+        return Logical(self.bindings, self.query, self.inquiry)
+
 
 NOTHING_BOUND = Logical({})

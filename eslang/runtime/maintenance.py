@@ -28,6 +28,7 @@ from eslang.runtime.claims import (
     nothing,
 )
 from eslang.runtime.events import Wait
+from eslang.runtime.lives import SPAWNED
 from eslang.runtime.locks import PropertyLocks
 from eslang.runtime.logical import NOTHING_BOUND
 from eslang.runtime.polls import CONDITION
@@ -116,7 +117,7 @@ class Maintenance:
         lives = self.scheduler.lives
         task = lives.create(name, body, None, on_end)
         task.daemon = task.seen = True
-        lives.start(task, "spawned")
+        lives.start(task, SPAWNED)
         task.kept, task.dynamic.logical = None, NOTHING_BOUND
         return task
 

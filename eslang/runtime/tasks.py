@@ -73,7 +73,7 @@ class StandStill:
 class Interrupt:
     """Something that a task is to do where it stands, at its next step."""
 
-    __slots__ = ("action", "by", "extent", "kind", "level", "urgent")
+    __slots__ = ("action", "at_waits", "by", "extent", "kind", "level", "urgent")
 
     def __init__(
         self,
@@ -83,6 +83,7 @@ class Interrupt:
         *,
         level: int = 0,
         urgent: bool = False,
+        at_waits: bool = False,
         by: Task | None = None,
     ) -> None:
         self.kind = kind  # "abort", "guardian", "deadline", …
@@ -90,6 +91,7 @@ class Interrupt:
         self.extent = extent
         self.level = extent.level if extent is not None else level
         self.urgent = urgent  # WITHOUT-INTERRUPTS does not hold it off
+        self.at_waits = at_waits  # it comes only when the task waits
         self.by = by  # the task it comes from, if any
 
 
@@ -175,6 +177,11 @@ class Task(Event):
         """All that it gave; nothing if it did not succeed."""
         return tuple(values_list(self.values)) if self.status is SUCCEEDED else ()
 
+    def ending(self) -> tuple[Value, ...] | None:
+        """The same once it has ended; None before. Who asks has seen how it ended."""
+        self.seen = True
+        return self.given() if self.status is not None else None
+
     def ancestors(self) -> Iterator[Task]:
         """Those that it belongs to, itself first."""
         task: Task | None = self
@@ -192,6 +199,8 @@ class Task(Event):
         """True if INTERRUPT can reach it where it stands: nothing there holds it off."""
         dynamic, extent = self.dynamic, interrupt.extent
         if extent.__class__ is Extent and dynamic.answering and extent.is_suspended(dynamic):
+            return False
+        if interrupt.at_waits and self.wait is None:
             return False
         return dynamic.held <= interrupt.level and (not dynamic.masked or interrupt.urgent)
 

@@ -13,6 +13,7 @@ from eslang.base.text import String
 from eslang.compile.registry import CL, ESL, function, macro
 from eslang.constructs.esl.checkpoints import as_task
 from eslang.runtime.guarding import run_masked
+from eslang.runtime.lives import SPAWNED
 from eslang.runtime.tasks import READY, RUNNING, WAITING, Interrupt, Task
 
 LAMBDA, QUOTE, QUASIQUOTE, LIST = (
@@ -119,7 +120,7 @@ def spawn_function(body: Any, promises: Value, called: Value, *options: Value) -
         owner = None
     task = make_task(called if name is None else name, body, promises, owner)
     task.daemon = daemon is not None
-    scheduler.lives.start(task, "spawned")
+    scheduler.lives.start(task, SPAWNED)
     return task
 
 

@@ -13,7 +13,7 @@ from eslang.base.running import running
 from eslang.base.symbols import Symbol, Value
 from eslang.base.text import String
 from eslang.compile.registry import CL, SCS, function, macro
-from eslang.constructs.scs.stepping import IS_ACTION, expand
+from eslang.constructs.scs.stepping import IS_ACTION, expand, refuse_modifiers
 from eslang.constructs.scs.steps import IN_ORDER
 from eslang.runtime.circuits import begin_action, end_of_action
 from eslang.runtime.guarding import run_masked
@@ -43,6 +43,7 @@ def atomic(form: Cons, environment: Any) -> Value:
 
     Source: SCS Appendix C, (a1;...;an).
     """
+    refuse_modifiers(form.cdr, environment, "atomic")
     return lisp_list(ATOMIC, lisp_list(QUOTE, form), from_items([LAMBDA, None], form.cdr))
 
 
@@ -80,8 +81,16 @@ def defaction(form: Cons, environment: Any) -> Value:
         head.append(body.car)
         body = body.cdr
     action = from_items([LIST, lisp_list(QUOTE, name), *variables_of(arguments)])
+    refuse_modifiers(body, environment, "defaction")
     body = lisp_list(ATOMIC, action, from_items([LAMBDA, None], body))
     definition = lisp_list(DEFUN, name, arguments, *head, body)
+    return definition_of_action(name, definition)
+
+
+def definition_of_action(name: Value, definition: Value) -> Value:
+    """DEFINITION, and the note that the function NAME ends with an action."""
+    if not isinstance(name, Symbol):  # (SETF PLACE) is not called by that
+        return definition
     return lisp_list(PROGN, definition, lisp_list(NOTE_ACTION, lisp_list(QUOTE, name)))
 
 
@@ -131,7 +140,7 @@ def defstep(form: Cons, environment: Any) -> Value:
         head.append(body.car)
         body = body.cdr
     definition = lisp_list(DEFUN, name, arguments, *head, Cons(STEP, Cons(name, body)))
-    return lisp_list(PROGN, definition, lisp_list(NOTE_ACTION, lisp_list(QUOTE, name)))
+    return definition_of_action(name, definition)
 
 
 @macro("(%do-step name &rest steps)", SCS)

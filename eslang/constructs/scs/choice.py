@@ -9,12 +9,14 @@ from __future__ import annotations
 from eslang.base.failure import Failure
 from eslang.base.hints import Any
 from eslang.base.lists import Cons, from_items
+from eslang.base.many import primary
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.compile.registry import SCS, function, macro
 from eslang.constructs.scs.asking import DEACTIVATED, run_under
-from eslang.constructs.scs.stepping import attempt, expand, read_steps
+from eslang.constructs.scs.stepping import expand, read_steps
 from eslang.runtime import failures
+from eslang.runtime.attempts import outcome
 from eslang.runtime.circuits import end_of_action, stage_here, tell_deactivated
 
 ANY = Symbol.intern("%DO-ANY", SCS)
@@ -67,7 +69,7 @@ def do_any(form: Cons, environment: Any) -> Value:
 
     It goes on until one succeeds. Modifiers may stand before STEPS, as in DO.
 
-    Returns: the value of the step that succeeds; :deactivated, if a modifier
+    Returns: the values of the step that succeeds; :deactivated, if a modifier
              ends it, or nothing but deactivated steps are left.
     Fails:   :all-subtasks-failed when all have failed, with the list of their
              failures, each (CAUSE . ARGUMENTS), in textual order.
@@ -85,7 +87,7 @@ def do_any(form: Cons, environment: Any) -> Value:
 def do_star_any(form: Cons, environment: Any) -> Value:
     """Do any of STEPS, those that have failed among them, until one succeeds.
 
-    Returns: the value of the step that succeeds; :deactivated, if a modifier
+    Returns: the values of the step that succeeds; :deactivated, if a modifier
              ends it, or nothing but deactivated steps are left.
 
     Example:
@@ -98,19 +100,25 @@ def do_star_any(form: Cons, environment: Any) -> Value:
     return expand(ANY, form, environment, T)
 
 
-@function("(%do-any operator modifiers steps starred)", SCS)
-def do_any_of(operator: Value, modifiers: Value, steps: Value, starred: Value) -> Value:
-    """DO-ANY, or DO*-ANY if STARRED."""
+def do_any_values(operator: Value, modifiers: Value, steps: Value, starred: Value) -> Value:
+    """All that DO-ANY gives, or DO*-ANY if STARRED."""
     listed = read_steps(steps)
 
     def body() -> Value:
         tries, stage = Tries(len(listed), starred is not None), stage_here()
+        task = running.session.scheduler.at_work()
         while tries.left:
             number = tries.left[running.session.chance.randrange(len(tries.left))]
             stage.number = number + 1
-            value = attempt(listed[number].run)
+            value = outcome(task, listed[number].run)
             if tries.note(number, value):
                 return value
         return tries.end()
 
     return run_under(operator, modifiers, body)
+
+
+@function("(%do-any operator modifiers steps starred)", SCS, many=do_any_values)
+def do_any_of(*parts: Value) -> Value:
+    """DO-ANY, or DO*-ANY if STARRED."""
+    return primary(do_any_values(*parts))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from eslang.base.failure import type_error
 from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.lists import Cons, from_items, items, lisp_list
+from eslang.base.many import primary
 from eslang.base.running import running
 from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, T, Value
@@ -15,7 +16,6 @@ from eslang.constructs.scs.choice import Tries
 from eslang.constructs.scs.learning import Learned, discount_of, rate_of
 from eslang.constructs.scs.stepping import (
     Step,
-    attempt,
     call_of,
     in_order,
     parts_of,
@@ -24,6 +24,7 @@ from eslang.constructs.scs.stepping import (
 )
 from eslang.constructs.shapes import refuse
 from eslang.runtime import failures
+from eslang.runtime.attempts import outcome
 from eslang.runtime.circuits import stage_here, tell_deactivated
 
 LAMBDA, LIST, OR, QUOTE = (Symbol.intern(name, CL) for name in ("LAMBDA", "LIST", "OR", "QUOTE"))
@@ -45,7 +46,7 @@ def clauses_form(clauses: Value, environment: Any, within: str, valued: bool) ->
     least = 2 if valued else 1
     while clauses is not None:
         clause = clauses.car
-        if clause.__class__ is not Cons or len(items(clause)) < least:
+        if not is_list_of(clause, least):
             shape = "(condition utility step...)" if valued else "(condition step...)"
             wrong = f"`{shown(clause)}` is no clause of {within}"
             refuse(environment, "malformed-step", wrong, clauses, hint=f"write `{shape}`", within=within)
@@ -56,9 +57,16 @@ def clauses_form(clauses: Value, environment: Any, within: str, valued: bool) ->
         test = lisp_list(LAMBDA, None, test_form(condition, environment))
         action = rest.car if rest is not None and rest.cdr is None else rest
         data = lisp_list(QUOTE, lisp_list(condition, action))
-        parts.append(lisp_list(LIST, data, test, utility, steps_form(rest, environment)))
+        parts.append(lisp_list(LIST, data, test, utility, steps_form(rest, environment, within)))
         clauses = clauses.cdr
     return Cons(LIST, from_items(parts))
+
+
+def is_list_of(clause: Value, least: int) -> bool:
+    """Whether CLAUSE is a list with that many elements at LEAST."""
+    while clause.__class__ is Cons:
+        clause, least = clause.cdr, least - 1
+    return clause is None and least <= 0
 
 
 @macro("(do-first &rest clauses)", SCS)
@@ -70,7 +78,7 @@ def do_first(form: Cons, environment: Any) -> Value:
     they are, and the choice is made anew. While no condition holds, it idles.
     Modifiers may stand before CLAUSES, as in DO.
 
-    Returns: the value of the steps, when they succeed; :deactivated, if a
+    Returns: the values of the steps, when they succeed; :deactivated, if a
              modifier ends it, or nothing but deactivated steps are left.
     Fails:   as soon as the steps that run fail.
     Waits:   while no condition holds.
@@ -91,7 +99,7 @@ def do_first(form: Cons, environment: Any) -> Value:
 def do_star_first(form: Cons, environment: Any) -> Value:
     """Do as DO-FIRST does, but try steps that fail again.
 
-    Returns: the value of the steps, when they succeed; :deactivated, if a
+    Returns: the values of the steps, when they succeed; :deactivated, if a
              modifier ends it, or nothing but deactivated steps are left.
     Waits:   while no condition holds.
 
@@ -115,7 +123,7 @@ def do_best(form: Cons, environment: Any) -> Value:
     With :learn t among the modifiers, or :learn RATE, each utility is
     multiplied by what was learned of its steps (see REINFORCE).
 
-    Returns: the value of the steps that succeed; :deactivated, if a modifier
+    Returns: the values of the steps that succeed; :deactivated, if a modifier
              ends it, or nothing but deactivated steps are left.
     Fails:   :all-subtasks-failed when all have failed, with the list of their
              failures, each (CAUSE . ARGUMENTS), in textual order;
@@ -137,7 +145,7 @@ def do_best(form: Cons, environment: Any) -> Value:
 def do_star_best(form: Cons, environment: Any) -> Value:
     """Do as DO-BEST does, but clauses that have failed may be chosen again.
 
-    Returns: the value of the steps that succeed; :deactivated, if a modifier
+    Returns: the values of the steps that succeed; :deactivated, if a modifier
              ends it, or nothing but deactivated steps are left.
     Waits:   while no condition holds.
 
@@ -246,7 +254,7 @@ class Choice(Asker):
             return mine.steps[0].run() if len(mine.steps) == 1 else in_order(mine.steps, False)
 
         bindings: Bindings = mine.asked.bindings
-        value = self.run(on, holds, bindings, (lambda: attempt(body)) if attempts else body)
+        value = self.run(on, holds, bindings, (lambda: outcome(self.task, body)) if attempts else body)
         if value is LEFT:
             self.tries.renew()
             earlier = next((each for each in on if each is not mine.asked and each.value), None)
@@ -268,16 +276,26 @@ def as_real(value: Value) -> Value:
     raise type_error(value, "REAL")
 
 
-@function("(%do-first operator modifiers clauses starred)", SCS)
-def do_first_of(operator: Value, modifiers: Value, clauses: Value, starred: Value) -> Value:
-    """DO-FIRST, or DO*-FIRST if STARRED."""
+def do_first_values(operator: Value, modifiers: Value, clauses: Value, starred: Value) -> Value:
+    """All that DO-FIRST gives, or DO*-FIRST if STARRED."""
     return _chosen(operator, modifiers, lambda: Choice(clauses, starred is not None), Choice.run_first)
 
 
-@function("(%do-best operator modifiers clauses starred learn)", SCS)
-def do_best_of(operator: Value, modifiers: Value, clauses: Value, starred: Value, learn: Value) -> Value:
-    """DO-BEST, or DO*-BEST if STARRED."""
+@function("(%do-first operator modifiers clauses starred)", SCS, many=do_first_values)
+def do_first_of(*parts: Value) -> Value:
+    """DO-FIRST, or DO*-FIRST if STARRED."""
+    return primary(do_first_values(*parts))
+
+
+def do_best_values(operator: Value, modifiers: Value, clauses: Value, starred: Value, learn: Value) -> Value:
+    """All that DO-BEST gives, or DO*-BEST if STARRED."""
     return _chosen(operator, modifiers, lambda: Choice(clauses, starred is not None, learn), Choice.run_best)
+
+
+@function("(%do-best operator modifiers clauses starred learn)", SCS, many=do_best_values)
+def do_best_of(*parts: Value) -> Value:
+    """DO-BEST, or DO*-BEST if STARRED."""
+    return primary(do_best_values(*parts))
 
 
 def _chosen(

@@ -11,7 +11,7 @@ from eslang.base.failure import control_error, type_error
 from eslang.base.hints import Any, NamedTuple
 from eslang.base.lists import Cons, lisp_list
 from eslang.base.running import running
-from eslang.base.symbols import Symbol, Value
+from eslang.base.symbols import Symbol, T, Value
 from eslang.compile.registry import SCS, function
 
 DISCOUNT = Symbol.intern("DISCOUNT", SCS)
@@ -33,11 +33,11 @@ def discount_of(action: Value) -> Value:
 
 
 def rate_of(learn: Value) -> float | None:
-    """How fast to learn, as :LEARN says: T, NIL, or the rate itself."""
-    if learn is None:
-        return None
+    """How fast to learn, as :LEARN says: T, NIL, or the rate itself, from 0 to 1."""
+    if learn is None or learn is T:
+        return None if learn is None else RATE
     if not is_share(learn):
-        return RATE
+        raise type_error(learn, "UNIT-REAL", Symbol.intern("DO-BEST", SCS))
     return float(learn)
 
 

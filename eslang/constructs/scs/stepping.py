@@ -10,6 +10,7 @@ from __future__ import annotations
 from eslang.base.failure import Failure
 from eslang.base.hints import Any, Callable, Iterator, NamedTuple
 from eslang.base.lists import Cons, from_items, items, lisp_list
+from eslang.base.many import many_of
 from eslang.base.running import running
 from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, Value
@@ -17,9 +18,8 @@ from eslang.compile.registry import CL, SCS
 from eslang.constructs.conditions import test_form
 from eslang.constructs.scs.asking import DEACTIVATED
 from eslang.constructs.shapes import refuse
-from eslang.runtime import failures
+from eslang.runtime.attempts import outcome
 from eslang.runtime.circuits import Stage, begin_action, end_of_action
-from eslang.runtime.failures import Clause, Form
 
 LAMBDA, LIST, QUOTE = (Symbol.intern(name, CL) for name in ("LAMBDA", "LIST", "QUOTE"))
 MODIFIERS = ("WHILE", "UNTIL", "WHEN", "UNLESS")
@@ -72,6 +72,8 @@ def parts_of(
             options[keyword.name] = rest.cdr.car
             rest = rest.cdr.cdr
             continue
+        if options is not None and keyword.name in options:
+            refuse(environment, "malformed-step", f"`{shown(keyword)}` has no value", rest, within=within)
         if keyword.name not in MODIFIERS:
             wrong = f"`{shown(keyword)}` is no modifier of a step"
             hint = "write `:while`, `:until`, `:when` or `:unless`, and a condition"
@@ -85,8 +87,9 @@ def parts_of(
     return Cons(LIST, from_items(modifiers)) if modifiers else None, rest
 
 
-def steps_form(forms: Value, environment: Any) -> Value:
-    """The form that gives the steps that FORMS are."""
+def steps_form(forms: Value, environment: Any, within: str) -> Value:
+    """The form that gives the steps that FORMS, a list in WITHIN, are."""
+    refuse_modifiers(forms, environment, within)
     parts = []
     for form in items(forms):
         operator = form.car if form.__class__ is Cons and isinstance(form.car, Symbol) else None
@@ -99,8 +102,20 @@ def steps_form(forms: Value, environment: Any) -> Value:
 
 def expand(function_name: Symbol, form: Cons, environment: Any, *more: Value) -> Value:
     """The call of FUNCTION-NAME for a construct of modifiers and steps."""
-    modifiers, steps = parts_of(form, environment, str(form.car).lower())
-    return call_of(function_name, form, modifiers, steps_form(steps, environment), *more)
+    within = str(form.car).lower()
+    modifiers, steps = parts_of(form, environment, within)
+    return call_of(function_name, form, modifiers, steps_form(steps, environment, within), *more)
+
+
+def refuse_modifiers(forms: Value, environment: Any, within: str) -> None:
+    """Refuse modifiers among FORMS, where steps are to be."""
+    while forms.__class__ is Cons:
+        form = forms.car
+        if isinstance(form, Keyword) and form.name in MODIFIERS:
+            wrong = f"`{shown(form)}` stands where a step is to be"
+            hint = "modifiers stand before the first step of a construct: `(scs:do :while condition step...)`"
+            refuse(environment, "malformed-step", wrong, forms, hint=hint, within=within)
+        forms = forms.cdr
 
 
 def call_of(function_name: Symbol, form: Cons, *parts: Value) -> Value:
@@ -111,30 +126,18 @@ def call_of(function_name: Symbol, form: Cons, *parts: Value) -> Value:
 def read_steps(steps: Value) -> list[Step]:
     """Steps as Python has them."""
     parts = items(steps)
-    return [Step(*parts[index : index + 3]) for index in range(0, len(parts), 3)]
+    return [Step(many_of(parts[at]), parts[at + 1], parts[at + 2]) for at in range(0, len(parts), 3)]
 
 
 # --- outcomes ------------------------------------------------------------------------
 
 
-EVERY_FAILURE = (Clause(None, None, None, takes=lambda failure: True),)
-
-
-def attempt(body: Callable[[], Value]) -> Value:
-    """What BODY gives; its failure, a Failure, if it fails and nothing inside answers that."""
-    form = Form()
-
-    def take(failure: Failure) -> None:
-        failures.abort(form, failure)
-
-    return failures.run_form(form, EVERY_FAILURE, (take,), body)
-
-
 def persist(body: Callable[[], Value]) -> Value:
     """What BODY gives when it does not fail; until then it is tried again."""
     rounds: Iterator[None] = running.session.ticks.source
+    task = running.session.scheduler.at_work()
     while True:
-        value = attempt(body)
+        value = outcome(task, body)
         if value.__class__ is not Failure:
             return value
         end_of_action()
@@ -143,7 +146,7 @@ def persist(body: Callable[[], Value]) -> Value:
 
 
 def in_order(steps: list[Step], starred: bool, stage: Stage | None = None) -> Value:
-    """Run STEPS, which STAGE counts; the value of the last one, NIL if that was deactivated."""
+    """Run STEPS, which STAGE counts; the values of the last one, NIL if that was deactivated."""
     value: Value = None
     stage = stage or Stage(None, None)
     for number, step in enumerate(steps, 1):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from eslang.base.hints import Any
 from eslang.base.lists import Cons
+from eslang.base.many import primary
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, T, Value
 from eslang.compile.registry import SCS, function, macro
@@ -22,7 +23,7 @@ def do(form: Cons, environment: Any) -> Value:
     which is asked before they begin; :while or :until, which is asked after
     every action, and ends the construct wherever it is.
 
-    Returns: the value of the last of STEPS; :deactivated, if a modifier ends it.
+    Returns: the values of the last of STEPS; :deactivated, if a modifier ends it.
     Fails:   as the first of STEPS that fails.
 
     Example:
@@ -41,7 +42,7 @@ def do(form: Cons, environment: Any) -> Value:
 def do_star(form: Cons, environment: Any) -> Value:
     """Do STEPS in order; one that fails is tried again until it succeeds.
 
-    Returns: the value of the last of STEPS; :deactivated, if a modifier ends it.
+    Returns: the values of the last of STEPS; :deactivated, if a modifier ends it.
 
     Example:
         ? (let ((tries 0))
@@ -53,11 +54,16 @@ def do_star(form: Cons, environment: Any) -> Value:
     return expand(IN_ORDER, form, environment, T)
 
 
-@function("(%do-in-order operator modifiers steps starred)", SCS)
-def do_in_order(operator: Value, modifiers: Value, steps: Value, starred: Value) -> Value:
-    """DO, or DO* if STARRED."""
+def in_order_values(operator: Value, modifiers: Value, steps: Value, starred: Value) -> Value:
+    """All that DO gives, or DO* if STARRED."""
     listed = read_steps(steps)
     return run_under(operator, modifiers, lambda: in_order(listed, starred is not None, stage_here()))
+
+
+@function("(%do-in-order operator modifiers steps starred)", SCS, many=in_order_values)
+def do_in_order(*parts: Value) -> Value:
+    """DO, or DO* if STARRED."""
+    return primary(in_order_values(*parts))
 
 
 @macro("(repeat &rest steps)", SCS)
