@@ -7,7 +7,7 @@ from eslang.base.hints import TYPE_CHECKING
 from eslang.base.image import PACKAGE, Image
 from eslang.base.symbols import Symbol
 from eslang.compile.registry import DEFINITIONS, Definition
-from eslang.devices import gym, spacecraft, widget
+from eslang.devices import gym, robot, spacecraft, widget
 
 if TYPE_CHECKING:
     from eslang.interpreter import Interpreter
@@ -30,6 +30,7 @@ def furnish(session: Interpreter) -> None:
     widget.install(session)
     spacecraft.install(session)
     gym.install(session)
+    robot.install(session)
 
 
 def furnish_definition(image: Image, definition: Definition) -> None:
