@@ -13,7 +13,7 @@ from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.text import String
 from eslang.compile.analyser import Use
 from eslang.compile.core import Call, Const, If, Inline, Node
-from eslang.compile.registry import CL, ESL
+from eslang.compile.registry import CL, ESL, SCS
 from eslang.constructs.queries import LOGICAL_BINDING
 from eslang.facts.goals import CONNECTIVES
 from eslang.facts.unify import is_variable
@@ -105,6 +105,13 @@ class Mentions:
     def define_goal(self, use: Use, given: list[Value]) -> None:
         """TO-ACHIEVE: the pattern."""
         self.note_query(GOAL, use, given[0])
+
+    def give_goal(self, use: Use, given: list[Value]) -> None:
+        """ADD-GOAL and DROP-GOAL: what is written, with a condition that is a query; else its test is read."""
+        goal, tests = given[0], given[2:3]
+        if goal.__class__ is Cons and goal.cdr.__class__ is Cons and tests in ([], [None]):
+            self.note_query(CONDITION, use, goal.cdr.car)
+            self.questions.append(Question(goal.cdr.car, use))
 
     def define_relation(self, use: Use, given: list[Value]) -> None:
         """DEFRELATION and DEFPROPERTY: the name, and the arguments."""
@@ -257,6 +264,8 @@ READERS: dict[Symbol, Callable[[Mentions, Use, list[Any]], None]] = {
     UNSERVED: Mentions.hold,
     MAINTAIN: Mentions.maintain,
     DEFINE_GOAL: Mentions.define_goal,
+    Symbol.intern("%ADD-GOAL", SCS): Mentions.give_goal,
+    Symbol.intern("%DROP-GOAL", SCS): Mentions.give_goal,
     DEFINE_RELATION: Mentions.define_relation,
     DEFINE_PROPERTY: Mentions.define_relation,
     DEFINE_RULE: Mentions.define_rule,

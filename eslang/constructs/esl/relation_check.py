@@ -19,7 +19,7 @@ from eslang.base.suggest import nearest
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.analyser import Use
 from eslang.compile.check import Judge
-from eslang.compile.registry import CL, ESL
+from eslang.compile.registry import CL, ESL, SCS
 from eslang.constructs.esl.mentions import (
     ASKED,
     ASSERTED,
@@ -37,6 +37,7 @@ from eslang.facts.goals import AND, NOT, UNBOUND, read_query, shape_of, variable
 from eslang.facts.query import Facts
 from eslang.facts.rules import UNSTRATIFIED
 
+DISCOUNT = Symbol.intern("DISCOUNT", SCS)  # of which REINFORCE asserts facts
 SURE_TESTS = frozenset(
     Symbol.intern(name, CL)
     for name in ("<", ">", "<=", ">=", "=", "/=", "EQ", "EQL", "EQUAL", "EQUALP", "FUNCALL")
@@ -265,8 +266,8 @@ def shows(term: Value) -> Value:
 
 
 def is_of_library(name: Symbol) -> bool:
-    """Whether NAME is a word of the language, such as POWER-STATE: the devices may assert facts of it."""
-    return name.package == ESL
+    """Whether NAME is a word of the languages, such as POWER-STATE or DISCOUNT: they may assert facts of it."""
+    return name.package == ESL or name is DISCOUNT
 
 
 def is_inside(span: Span, place: Span) -> bool:
