@@ -107,7 +107,7 @@ class Mentions:
         self.note_query(GOAL, use, given[0])
 
     def give_goal(self, use: Use, given: list[Value]) -> None:
-        """ADD-GOAL and DROP-GOAL: what is written, with a condition that is a query; else its test is read."""
+        """ADD-GOAL and DROP-GOAL: what is written, if its condition is a query; else its test is read."""
         goal, tests = given[0], given[2:3]
         if goal.__class__ is Cons and goal.cdr.__class__ is Cons and tests in ([], [None]):
             self.note_query(CONDITION, use, goal.cdr.car)

@@ -266,7 +266,7 @@ def shows(term: Value) -> Value:
 
 
 def is_of_library(name: Symbol) -> bool:
-    """Whether NAME is a word of the languages, such as POWER-STATE or DISCOUNT: they may assert facts of it."""
+    """Whether NAME is a word of the language, such as POWER-STATE: the language may assert facts of it."""
     return name.package == ESL or name is DISCOUNT
 
 
