@@ -1,4 +1,4 @@
-"""Worlds that others wrote: the environments of Gymnasium (language reference §8).
+"""Worlds that others wrote: the environments of Gymnasium.
 
 An environment is known to plans by its name. What its sensors tell are facts,
 and so are how its episode stands and what it scored; an action goes to it by
