@@ -24,11 +24,15 @@ if TYPE_CHECKING:
     from eslang.runtime.logical import Logical
 
 
+LEFT_BY = "deactivated"  # the kind of a wait for what leaves all that the task is in
+
+
 class Level:
     """One entrance of a construct that is active while something holds."""
 
     __slots__ = (
         "call",
+        "closed",
         "extent",
         "holds",
         "is_branch",
@@ -50,6 +54,7 @@ class Level:
         self.is_stale = False  # what it rests on has changed
         self.is_branch: bool = outer is not None and outer.is_branch  # others take turns with it
         self.live = True
+        self.closed = False  # it is being left: nothing inside begins another action
         self.extent = Extent(task.dynamic)
         self.call: Interrupt | None = None  # what lets its task ask, should it wait
 
@@ -77,6 +82,10 @@ class Level:
         session = running.session
         dynamic, task = session.dynamic, session.scheduler.at_work()
         is_mine = self.task is task
+        if self.closed:
+            if not is_mine:
+                session.scheduler.wait(Wait(task, LEFT_BY, self.task))
+            return
         logical, forms = dynamic.logical, dynamic.forms
         self.settle()
         dynamic.logical = self.logical
@@ -92,19 +101,23 @@ class Level:
             self.leave_from_inside(holds)
 
     def leave_from_inside(self, holds: Value) -> None:
-        """Let its task leave it, or fail in it if HOLDS is a failure; that ends the one that is at work."""
+        """Let its task leave it, or fail in it if HOLDS is no answer; that ends the one that is at work."""
         session = running.session
         task = session.scheduler.at_work()
-        self.is_stale = True
 
         def leave() -> None:
             if holds is False:
                 raise Deactivated(self)
             session.dynamic.forms = self.extent.forms
-            failures.signal(holds, continuable=False)
+            failures.signal(holds.failure, continuable=False)
 
+        self.close()
         session.scheduler.interrupt(self.task, Interrupt("circuit", leave, self.extent))
-        session.scheduler.wait(Wait(task, "deactivated", self.task))
+        session.scheduler.wait(Wait(task, LEFT_BY, self.task))
+
+    def close(self) -> None:
+        """It is to be left: no action begins inside."""
+        self.closed = self.is_stale = True
 
     def end(self) -> None:
         """It is left."""
@@ -160,15 +173,15 @@ def tell_deactivated(why: str, condition: Value = None) -> None:
 
 
 def end_of_action() -> None:
-    """An atomic action has ended: let another branch have its turn, and ask the levels."""
+    """An atomic action has ended: ask the levels, and let another branch have its turn."""
     session = running.session
     dynamic = session.dynamic
     level: Level | None = dynamic.logical.circuit
     if level is None or dynamic.masked:
         return
-    if level.is_branch:
-        take_turns(session)
     ask_all(level, polled=True)
+    if level.is_branch and take_turns(session):
+        ask_all(level, polled=True)  # others have acted
 
 
 def ask_all(level: Level | None, *, polled: bool) -> None:
@@ -178,25 +191,38 @@ def ask_all(level: Level | None, *, polled: bool) -> None:
         if level.is_stale or (polled and level.polls):
             found.append(level)
         level = level.outer
-    for each in reversed(found):
-        each.ask()
+    if found:
+        session = running.session
+        task, held = session.scheduler.at_work(), session.dynamic.held
+        for each in reversed(found):
+            if each.extent.level >= held if each.task is task else not held:  # a cleanup is not cut short
+                each.ask()
 
 
-def take_turns(session: Any) -> None:
+def is_polled(level: Level | None) -> bool:
+    """Whether LEVEL or one around it may change with any action."""
+    while level is not None and not level.polls:
+        level = level.outer
+    return level is not None
+
+
+def take_turns(session: Any) -> bool:
     """Let any of the branches that are ready go on, as chance has it, the current one among them.
 
-    Other tasks keep their places in the queue.
+    Other tasks keep their places in the queue. True if others went on.
     """
     scheduler = session.scheduler
     task, ready = scheduler.at_work(), scheduler.ready
     places = [index for index, other in enumerate(ready) if other.dynamic.logical.circuit is not None]
     if not places:
-        return
+        return False
     places.append(len(ready))
     ready.append(task)
     task.queued = True
     chosen, first = places[session.chance.randrange(len(places))], places[0]
     ready[first], ready[chosen] = ready[chosen], ready[first]
+    steps = scheduler.steps
     scheduler.pause(task)
     if task.interrupts or task.ending is not None:
         scheduler.attend(task)
+    return bool(scheduler.steps != steps + 1)

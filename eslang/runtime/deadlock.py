@@ -114,6 +114,8 @@ def phrase(wait: Wait) -> str:
             return f"{float(of):g} seconds to pass"
         case "period":
             return "the next period"
+        case "suspended":
+            return "another task to resume it"
         case "condition":
             return f"the condition {shown(of)}"
         case "resource":
@@ -139,12 +141,14 @@ def why(wait: Wait, alive: list[Task]) -> tuple[str, str]:
             return why_no_signal(wait.of, alive)
         case "condition":
             return why_no_change(wait, alive)
+        case "suspended":
+            return "", "let another task call `(resume task)` for it"
     return "", ""
 
 
 def why_no_change(wait: Wait, alive: list[Task]) -> tuple[str, str]:
     """Why none of the facts changes that the condition of WAIT rests on; and what would help."""
-    advice = "let another task make the condition true, or give the wait a `:timeout`"
+    advice = wait.advice
     names = [] if wait.polls else list(wait.reads)
     if not names:
         return "", advice

@@ -31,6 +31,10 @@ class Event(Datum):
         """How the printer shows it."""
         return f"#<EVENT {self.name}>" if self.name is not None else "#<EVENT>"
 
+    def outcome(self) -> Arguments | None:
+        """What it has signalled for good; None unless it has ended, as tasks and goals do."""
+        return None
+
     def signal(self, arguments: Arguments) -> Iterable[Wait]:
         """End all waits for this, each once; their tasks are to be made ready by the caller."""
         waits, self.waits = self.waits, None
@@ -85,6 +89,7 @@ class Wait:
         "task",
         "test",
     )
+    advice = "let another task make the condition true, or give the wait a `:timeout`"
 
     def __init__(
         self,

@@ -26,6 +26,7 @@ WHY_ABORTED = {
     "run": "the run ends",
     "caller": "who awaits it was cancelled",
     "recovery": "nobody wants it any more",
+    "goal": "its goal is over",
 }
 MANY = 4  # names that are listed
 
@@ -100,6 +101,10 @@ def waited_for(told: dict[str, Any]) -> str:
         return f"{value_text(of[1])} of {value_text(of[0])}"
     if on == "period":
         return f"the next period, {seconds(of)}"
+    if on == "suspended":
+        return "another task to resume it"
+    if on == "deactivated":
+        return f"{of} to leave the construct"
     if on == "sleep":
         return f"{seconds(of)} to pass"
     if on == "outside":
@@ -171,6 +176,21 @@ def _recovery_end(told: dict[str, Any]) -> str:
 def _goal(told: dict[str, Any]) -> str:
     states = {"no-action": "is true already", "attempting": "is attempted", "achieved": "is achieved"}
     return f"goal {value_text(told['condition'])} {states.get(told['state'], told['state'])}"
+
+
+def _goal_changed(told: dict[str, Any]) -> str:
+    goal = value_text(told["goal"])
+    sentences = {
+        "added": f"is to pursue {goal}",
+        "pursued": f"attempts to {goal[1:-1]}",
+        "inactive": f"has nothing to do for {goal}",
+        "failed": f"has failed to {goal[1:-1]}, and tries again",
+        "blocked": f"finds no method for {goal}",
+        "achieved": f"is done with {goal}",
+        "dropped": f"drops {goal}",
+        "impossible": f"gives up {goal}",
+    }
+    return sentences[told["change"]]
 
 
 def _lock(told: dict[str, Any]) -> str:
@@ -255,6 +275,7 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "deactivated": _deactivated,
     "goal": _goal,
     "fact": lambda told: f"{'asserts' if told['added'] else 'retracts'} {value_text(told['fact'])}",
+    "goal-changed": _goal_changed,
     "lock": _lock,
     "resource": _resource,
     "run-stopped": lambda told: f"the run is stopped: {told['reason']} (exit {told['code']})",

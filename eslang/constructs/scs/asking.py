@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from eslang.base.control import Deactivated
 from eslang.base.hints import TYPE_CHECKING, Callable, Iterable
-from eslang.base.lists import items
+from eslang.base.lists import Cons, items
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.constructs.watching import Inquiry
 from eslang.runtime import failures
-from eslang.runtime.circuits import Level, Stage, tell_deactivated
+from eslang.runtime.circuits import Level, Stage, ask_all, is_polled, tell_deactivated
 from eslang.runtime.events import Wait
 from eslang.runtime.polls import CONDITION
 
@@ -30,9 +30,7 @@ class Asked:
 
     __slots__ = ("condition", "inquiry", "is_stale", "negated", "owner", "test", "value")
 
-    def __init__(
-        self, condition: Value, test: Callable[[], Value], owner: Asker, negated: bool = False
-    ) -> None:
+    def __init__(self, condition: Value, test: Value, owner: Asker, negated: bool = False) -> None:
         self.condition = condition
         self.test = test
         self.owner = owner
@@ -65,6 +63,8 @@ class Asked:
     def _ask(self) -> None:
         dynamic = running.session.dynamic
         outer = dynamic.logical
+        if self.test.__class__ is Cons:  # what stands under backquotes in it is computed once
+            self.test = self.test.car()
         try:
             while self.is_stale or self.inquiry.asked_lisp:
                 self.inquiry.end()
@@ -78,6 +78,13 @@ class Asked:
             dynamic.logical = outer
 
 
+class Idling(Wait):
+    """A wait until a choice has a condition that holds."""
+
+    __slots__ = ()
+    advice = "let another task make the condition true, or give the choice a clause `(t …)`"
+
+
 class Asker:
     """One entrance of a construct that has conditions."""
 
@@ -89,8 +96,8 @@ class Asker:
         self.wait: Wait | None = None
         self.task = running.session.scheduler.at_work()
 
-    def ask(self, condition: Value, test: Callable[[], Value], negated: bool = False) -> Asked:
-        """Take a condition, which is not asked yet."""
+    def ask(self, condition: Value, test: Value, negated: bool = False) -> Asked:
+        """Take a condition, which is not asked yet; TEST is a function, or the list of what gives one."""
         asked = Asked(condition, test, self, negated)
         self.conditions.append(asked)
         return asked
@@ -133,11 +140,14 @@ class Asker:
         listed = list(among)
 
         def any_holds() -> Value:
+            around = running.session.dynamic.logical.circuit
+            ask_all(around, polled=True)
             found = [each for each in listed if each.holds()]
-            wait.polls = any(each.polls for each in listed)
+            wait.polls = is_polled(around) or any(each.polls for each in listed)
+            wait.reads = [name for each in listed for name in each.inquiry.relations]
             return found or None
 
-        wait = self.wait = Wait(self.task, CONDITION, of, (), any_holds)
+        wait = self.wait = Idling(self.task, CONDITION, of, (), any_holds)
         scheduler = running.session.scheduler
         try:
             scheduler.wait(wait)

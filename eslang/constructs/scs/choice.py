@@ -16,7 +16,7 @@ from eslang.compile.registry import SCS, function, macro
 from eslang.constructs.scs.asking import DEACTIVATED, run_under
 from eslang.constructs.scs.stepping import expand, read_steps
 from eslang.runtime import failures
-from eslang.runtime.attempts import outcome
+from eslang.runtime.attempts import Unsuccessful, outcome
 from eslang.runtime.circuits import end_of_action, stage_here, tell_deactivated
 
 ANY = Symbol.intern("%DO-ANY", SCS)
@@ -42,8 +42,8 @@ class Tries:
         """The alternative NUMBER gave VALUE; true if that decides the choice."""
         if value is DEACTIVATED:
             self.left.remove(number)
-        elif value.__class__ is Failure:
-            self.failed[number] = value
+        elif value.__class__ is Unsuccessful:
+            self.failed[number] = value.failure
             self.renew()
             end_of_action()
             next(running.session.ticks.source)

@@ -10,16 +10,17 @@ from eslang.base.running import running
 from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, T, Value
 from eslang.compile.registry import CL, SCS, function, macro
-from eslang.constructs.conditions import test_form
 from eslang.constructs.scs.asking import LEFT, Asked, Asker, Bindings, run_under
 from eslang.constructs.scs.choice import Tries
 from eslang.constructs.scs.learning import Learned, discount_of, rate_of
 from eslang.constructs.scs.stepping import (
     Step,
+    asking_form,
     call_of,
     in_order,
     parts_of,
     read_steps,
+    spelled,
     steps_form,
 )
 from eslang.constructs.shapes import refuse
@@ -54,7 +55,7 @@ def clauses_form(clauses: Value, environment: Any, within: str, valued: bool) ->
         utility = None
         if valued:
             utility, rest = lisp_list(LAMBDA, None, rest.car), rest.cdr
-        test = lisp_list(LAMBDA, None, test_form(condition, environment))
+        test = asking_form(condition, environment)
         action = rest.car if rest is not None and rest.cdr is None else rest
         data = lisp_list(QUOTE, lisp_list(condition, action))
         parts.append(lisp_list(LIST, data, test, utility, steps_form(rest, environment, within)))
@@ -160,7 +161,7 @@ def do_star_best(form: Cons, environment: Any) -> Value:
 
 
 def _expand_clauses(function_name: Symbol, form: Cons, environment: Any, starred: Value) -> Value:
-    within = str(form.car).lower()
+    within = spelled(form.car)
     valued = function_name is BEST
     options: dict[str, Value] = {"LEARN": None} if valued else {}
     modifiers, clauses = parts_of(form, environment, within, options)
@@ -273,7 +274,7 @@ def as_real(value: Value) -> Value:
     """VALUE, which is to be a real number."""
     if value.__class__ is int or value.__class__ is float or value.__class__.__name__ == "Ratio":
         return value
-    raise type_error(value, "REAL")
+    raise type_error(value, "REAL", Symbol.intern("DO-BEST", SCS))
 
 
 def do_first_values(operator: Value, modifiers: Value, clauses: Value, starred: Value) -> Value:

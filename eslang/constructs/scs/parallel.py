@@ -14,6 +14,7 @@ from eslang.compile.registry import SCS, function, macro
 from eslang.constructs.scs.asking import run_under
 from eslang.constructs.scs.stepping import Step, expand, persist, read_steps
 from eslang.runtime import failures
+from eslang.runtime.attempts import noticed
 from eslang.runtime.circuits import Level, Stage, stage_here
 from eslang.runtime.lives import passed_on
 from eslang.runtime.nets import Net, all_must_succeed
@@ -76,14 +77,14 @@ def run_all(steps: list[Step], starred: bool) -> Value:
     scheduler = session.scheduler
     net = Net(scheduler, all_must_succeed)
     parent = scheduler.at_work()
-    for number, step in enumerate(steps, 1):
-        name = str(step.operator or "step").lower()
-        net.members.append(scheduler.lives.create(name, branch(number, step, starred), parent))
-    session.chance.shuffle(net.members)
     dynamic = parent.dynamic
     outer = dynamic.logical
     level = Level(parent, outer, lambda: True)
     level.is_branch = True  # the members begin in it
+    for number, step in enumerate(steps, 1):
+        name = str(step.operator or "step").lower()
+        net.members.append(scheduler.lives.create(name, branch(number, step, starred, level), parent))
+    session.chance.shuffle(net.members)
     dynamic.logical = outer._replace(circuit=level)
     try:
         net.run()
@@ -95,13 +96,13 @@ def run_all(steps: list[Step], starred: bool) -> Value:
     return T
 
 
-def branch(number: int, step: Step, starred: bool) -> Callable[[], Value]:
-    """What the task of one of the steps does."""
+def branch(number: int, step: Step, starred: bool, level: Level) -> Callable[[], Value]:
+    """What the task of one of the steps does. As soon as it fails, LEVEL is to be left."""
 
     def body() -> Value:
         dynamic = running.session.dynamic
         whole = stage_here()
         dynamic.logical = dynamic.logical.entered(Stage(whole.operator, whole.around, number))
-        return persist(step.run) if starred else step.run()
+        return persist(step.run) if starred else noticed(step.run, level.close)
 
     return body

@@ -7,7 +7,6 @@ conditions around them are asked (runtime/circuits.py).
 
 from __future__ import annotations
 
-from eslang.base.failure import Failure
 from eslang.base.hints import Any, Callable, Iterator, NamedTuple
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.many import many_of
@@ -15,10 +14,10 @@ from eslang.base.running import running
 from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.compile.registry import CL, SCS
-from eslang.constructs.conditions import test_form
+from eslang.constructs.conditions import computed_once, test_form, with_variables
 from eslang.constructs.scs.asking import DEACTIVATED
 from eslang.constructs.shapes import refuse
-from eslang.runtime.attempts import outcome
+from eslang.runtime.attempts import Unsuccessful, outcome
 from eslang.runtime.circuits import Stage, begin_action, end_of_action
 
 LAMBDA, LIST, QUOTE = (Symbol.intern(name, CL) for name in ("LAMBDA", "LIST", "QUOTE"))
@@ -81,10 +80,23 @@ def parts_of(
         if rest.cdr is None:
             refuse(environment, "malformed-step", f"`{shown(keyword)}` has no condition", rest, within=within)
         condition = rest.cdr.car
-        test = lisp_list(LAMBDA, None, test_form(condition, environment))
+        test = asking_form(condition, environment)
         modifiers.append(lisp_list(LIST, keyword, lisp_list(QUOTE, condition), test))
         rest = rest.cdr.cdr
     return Cons(LIST, from_items(modifiers)) if modifiers else None, rest
+
+
+def asking_form(condition: Value, environment: Any) -> Value:
+    """The form that gives the function that asks CONDITION.
+
+    Where something in it stands under a backquote, which is to be computed
+    once, it gives the list of a function that does so and gives that function.
+    """
+    computed, bindings = computed_once(condition)
+    test = lisp_list(LAMBDA, None, test_form(computed, environment))
+    if bindings is None:
+        return test
+    return lisp_list(LIST, lisp_list(LAMBDA, None, with_variables(bindings, test)))
 
 
 def steps_form(forms: Value, environment: Any, within: str) -> Value:
@@ -102,7 +114,7 @@ def steps_form(forms: Value, environment: Any, within: str) -> Value:
 
 def expand(function_name: Symbol, form: Cons, environment: Any, *more: Value) -> Value:
     """The call of FUNCTION-NAME for a construct of modifiers and steps."""
-    within = str(form.car).lower()
+    within = spelled(form.car)
     modifiers, steps = parts_of(form, environment, within)
     return call_of(function_name, form, modifiers, steps_form(steps, environment, within), *more)
 
@@ -116,6 +128,12 @@ def refuse_modifiers(forms: Value, environment: Any, within: str) -> None:
             hint = "modifiers stand before the first step of a construct: `(scs:do :while condition step...)`"
             refuse(environment, "malformed-step", wrong, forms, hint=hint, within=within)
         forms = forms.cdr
+
+
+def spelled(operator: Symbol) -> str:
+    """OPERATOR as it is written where plain DO and DO* are Common Lisp's."""
+    name = shown(operator)
+    return f"scs:{name}" if name in ("do", "do*") else name
 
 
 def call_of(function_name: Symbol, form: Cons, *parts: Value) -> Value:
@@ -138,7 +156,7 @@ def persist(body: Callable[[], Value]) -> Value:
     task = running.session.scheduler.at_work()
     while True:
         value = outcome(task, body)
-        if value.__class__ is not Failure:
+        if value.__class__ is not Unsuccessful:
             return value
         end_of_action()
         next(rounds)
