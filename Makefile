@@ -60,6 +60,7 @@ $(VENV)/.ready: pyproject.toml
 
 $(VENV)/.ready-dev: pyproject.toml $(VENV)/.ready
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	-@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[gym]'
 	@touch $@
 
 clean:

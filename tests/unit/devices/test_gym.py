@@ -10,9 +10,11 @@ from pathlib import Path
 import pytest
 
 from eslang.tools.cli import main
-from support import lines_of, run
+from support import check_program, lines_of, run
 
-LANDER = Path(__file__).resolve().parents[3] / "plans" / "scs" / "08-lunar-lander.esl"
+ROOT = Path(__file__).resolve().parents[3]
+LANDER = ROOT / "plans" / "scs" / "08-lunar-lander.esl"
+PAGE = ROOT / "docs" / "how-to" / "act-in-gymnasium.md"
 CART = """(make-environment "CartPole-v1" :name :cart :seed 3 :sensors '(:place :speed :lean :sway))"""
 needs_gymnasium = pytest.mark.skipif(find_spec("gymnasium") is None, reason="pip install eslang[gym]")
 needs_box2d = pytest.mark.skipif(find_spec("Box2D") is None, reason="pip install eslang[gym]")
@@ -134,6 +136,20 @@ class TestEnvironments:
               (watch (wait-until (score :cart ?total))
                      (print (db-query '(episode :cart ?state)))))"""
         assert on_cart(text) == ["(((?STATE . :TERMINATED)))"]
+
+    def test_two_environments_are_steered_at_a_time(self) -> None:
+        text = """
+            (make-environment "Acrobot-v1" :name :arm :max-episode-steps 20)
+            (print (do-all (repeat :while (episode :cart :running) (environment-step :cart 1))
+                           (repeat :while (episode :arm :running) (environment-step :arm 1))))
+            (print (db-query '(episode ?which ?state)))"""
+        states = ["((?WHICH . :CART) (?STATE . :TERMINATED))", "((?WHICH . :ARM) (?STATE . :TRUNCATED))"]
+        assert on_cart(text) in (["T", f"({' '.join(order)})"] for order in (states, states[::-1]))
+
+    @pytest.mark.slow
+    def test_the_blocks_of_the_page_are_one_program(self) -> None:
+        blocks = re.findall(r"^```lisp\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.M | re.S)
+        check_program("\n".join(blocks), PAGE.name)
 
     def test_a_circuit_keeps_the_pole_up_longer_than_a_fixed_action(self) -> None:
         text = """
