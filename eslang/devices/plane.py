@@ -119,10 +119,9 @@ class Plane:
                 best, nearest = distance, name
         return best, nearest
 
-    def ahead(self, x: float, y: float, direction: float) -> float:
-        """How far one can look from (X, Y) in DIRECTION."""
-        ux, uy = unit(direction)
-        return min([solid.ahead(x, y, ux, uy) for _, solid in self.solids()], default=inf)
+    def near(self, x: float, y: float, far: float) -> list[Edge | Disc]:
+        """Whatever is no farther from (X, Y) than FAR."""
+        return [solid for _, solid in self.solids() if solid.distance(x, y) <= far]
 
     def walk(self, seconds: float, x: float, y: float) -> bool:
         """Let what is on its way go on, but not into a robot at (X, Y); whether anything has moved."""
@@ -135,6 +134,12 @@ class Plane:
             disc.goal = None if place == disc.goal else disc.goal
             moved = True
         return moved
+
+
+def sight(solids: list[Edge | Disc], x: float, y: float, direction: float) -> float:
+    """How far one can look from (X, Y) in DIRECTION, if these SOLIDS are there."""
+    ux, uy = unit(direction)
+    return min([solid.ahead(x, y, ux, uy) for solid in solids], default=inf)
 
 
 def unit(direction: float) -> tuple[float, float]:

@@ -48,6 +48,11 @@ def numbers(*values: Any) -> list[float]:
     return [float(value) for value in values]
 
 
+def key_of(name: Any) -> Any:
+    """What a thing is known by in the plane: its name, which may be a list."""
+    return tuple(map(key_of, name)) if isinstance(name, list) else name
+
+
 def place_robot(body: Body, x: Any, y: Any, heading: Any, noise: Any) -> None:
     """Put the robot somewhere."""
     body.place(*numbers(x, y, heading, noise))
@@ -60,7 +65,7 @@ def place_wall(body: Body, name: Any, *corners: Any) -> Any:
     places = numbers(*corners)
     if len(places) < 4 or len(places) % 2:
         raise Failure("no-wall", list(corners))
-    body.plane.walls[name] = [Edge(*places[at : at + 4]) for at in range(0, len(places) - 2, 2)]
+    body.plane.walls[key_of(name)] = [Edge(*places[at : at + 4]) for at in range(0, len(places) - 2, 2)]
     body.tell()
     return name
 
@@ -69,14 +74,14 @@ def place_obstacle(body: Body, name: Any, x: Any, y: Any, radius: Any) -> Any:
     """Put something round somewhere."""
     from eslang.devices.plane import Disc
 
-    body.plane.discs[name] = Disc(*numbers(x, y, radius))
+    body.plane.discs[key_of(name)] = Disc(*numbers(x, y, radius))
     body.tell()
     return name
 
 
 def move_obstacle(body: Body, name: Any, x: Any, y: Any, speed: Any) -> Any:
     """Let something round go somewhere."""
-    disc = body.plane.discs.get(name)
+    disc = body.plane.discs.get(key_of(name))
     if disc is None:
         raise Failure("unknown-thing", name)
     gx, gy, disc.speed = numbers(x, y, speed)
@@ -104,7 +109,8 @@ def place_charger(body: Body, x: Any, y: Any) -> Any:
 
 def remove_thing(body: Body, name: Any) -> Any:
     """Take away a wall, or something round."""
-    found = body.plane.walls.pop(name, None), body.plane.discs.pop(name, None)
+    key = key_of(name)
+    found = body.plane.walls.pop(key, None), body.plane.discs.pop(key, None)
     body.tell()
     return None if found == (None, None) else name
 

@@ -13,7 +13,7 @@ from eslang.base.failure import Failure
 from eslang.base.hints import TYPE_CHECKING, Any, Callable
 from eslang.base.suggest import nearest
 from eslang.base.symbols import Keyword, Symbol
-from eslang.devices.plane import ROBOT_RADIUS, Plane, direction, turned, unit
+from eslang.devices.plane import ROBOT_RADIUS, Disc, Edge, Plane, direction, sight, turned, unit
 
 if TYPE_CHECKING:
     from eslang.interpreter import Interpreter
@@ -72,6 +72,7 @@ class Body:
         self.holds: Any = None
         self.state = OK
         self.told: dict[str, Any] = {}
+        self.around: list[Edge | Disc] = []  # what the range sensors can see
         agent.call("esl::%declare-senses")
 
     def place(self, x: float, y: float, heading: float, noise: float) -> None:
@@ -134,8 +135,8 @@ class Body:
         x, y = self.x + far * ux, self.y + far * uy
         clear, name = self.plane.nearest(x, y)
         if clear < ROBOT_RADIUS and clear < self.plane.nearest(self.x, self.y)[0]:
-            self.bumped = name
-            motion.end("bumped", name)
+            self.bumped = name_of(name)
+            motion.end("bumped", self.bumped)
             return
         self.x, self.y = x, y
         self.heading = turned(self.heading + self.chance.gauss(0.0, 10 * self.noise))
@@ -165,6 +166,8 @@ class Body:
         """Let the facts say what SENSORS tell now."""
         if not self.is_placed:
             return
+        if sensors is TOLD:
+            self.look_around()
         now = {name: self.read(name) for name in sensors}
         gone = [name for name, value in now.items() if value is None and self.told.get(name) is not None]
         news = [
@@ -176,6 +179,10 @@ class Body:
         if news:
             self.facts.add_all(news, SENSES)
 
+    def look_around(self) -> None:
+        """Find out what the range sensors can see from here."""
+        self.around = self.plane.near(self.x, self.y, FARTHEST + ROBOT_RADIUS)
+
     def sense(self, sensor: Any, *place: Any) -> Any:
         """What SENSOR tells now, of a PLACE if it is one that takes one."""
         known = (*TOLD, *PLACES)
@@ -186,6 +193,7 @@ class Body:
         if not self.is_placed:
             raise Failure("no-robot")
         if name not in PLACES:
+            self.look_around()
             return self.read(name)
         if len(place) != 2:
             raise Failure("no-place", sensor, list(place))
@@ -197,7 +205,7 @@ class Body:
             return None
         if name in RANGES:
             way = self.heading + RANGES[name]
-            far = min([self.plane.ahead(self.x, self.y, way + each) for each in CONE]) - ROBOT_RADIUS
+            far = min([sight(self.around, self.x, self.y, way + each) for each in CONE]) - ROBOT_RADIUS
             return self.metres(min(FARTHEST, max(0.0, far)))
         if name in BAR:
             return self.read_bar(name)
@@ -270,3 +278,8 @@ class Body:
         self.charging_time()
         self.battery = 100.0
         self.tell(OWN)
+
+
+def name_of(key: Any) -> Any:
+    """The name of the thing that is known in the plane by KEY."""
+    return list(map(name_of, key)) if isinstance(key, tuple) else key

@@ -6,7 +6,7 @@ from math import inf, isclose
 
 import pytest
 
-from eslang.devices.plane import Bar, Disc, Edge, Plane, direction, turned
+from eslang.devices.plane import Bar, Disc, Edge, Plane, direction, sight, turned
 
 
 def test_an_edge_is_as_far_as_its_nearest_point() -> None:
@@ -56,7 +56,8 @@ def test_the_nearest_thing_has_a_name() -> None:
     plane.walls["north"] = [Edge(-5, 2, 5, 2)]
     plane.discs["cart"] = Disc(3, 0, 0.5)
     assert [plane.nearest(0, 0), plane.nearest(1, 0)] == [(2, "north"), (1.5, "cart")]
-    assert isclose(plane.ahead(0, 0, 90), 2)
+    assert isclose(sight(plane.near(0, 0, 4), 0, 0, 90), 2)
+    assert sight(plane.near(0, 0, 1), 0, 0, 90) == inf
 
 
 @pytest.mark.parametrize(("side", "zone"), [(1, (2, 1)), (-1, (2, -1))])

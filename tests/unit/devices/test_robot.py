@@ -65,6 +65,15 @@ def test_it_bumps_into_what_is_there_and_names_it() -> None:
     assert lines_of(text)[-2:] == ["(((?THING . :NORTH)))", "(0.51 NIL)"]
 
 
+def test_things_may_have_names_of_any_kind() -> None:
+    text = """(place-robot 0 0 0) (place-wall '(door (2)) 1 -1 1 1) (place-obstacle "box" 3 0)
+      (with-recovery-procedures (((:bumped thing) (print thing) (remove-thing thing) (retry)))
+        (robot-advance 1))
+      (robot-drive)"""
+    assert lines_of(text.replace("(robot-drive)", ""))[-1] == "(DOOR (2))"
+    assert cause_of(text) == ":BUMPED box"
+
+
 def test_it_can_turn_and_go_back_where_it_has_bumped() -> None:
     text = f"""{PLACED} (with-recovery-procedures ((:bumped (abort))) (robot-drive))
       (robot-turn 180) (robot-advance 1) (print (< (second {POSE}) 2))"""
