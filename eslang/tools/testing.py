@@ -24,8 +24,8 @@ from eslang.tools.report import failure_text, place_of
 from eslang.tools.transcript import Stage, read_transcript, replay
 
 SUFFIXES = (".esl", ".transcript", ".md")
-TESTS = Symbol.intern("*TESTS*", "ESL")
-DOUBLES = Symbol.intern("*DOUBLES*", "ESL")
+TESTS = Symbol.intern("%*TESTS*", "ESL")
+DOUBLES = Symbol.intern("%*DOUBLES*", "ESL")
 EXPECTATION_FAILED = Keyword("EXPECTATION-FAILED")
 
 
