@@ -12,9 +12,9 @@ from __future__ import annotations
 
 from eslang.base.control import Deactivated
 from eslang.base.hints import TYPE_CHECKING, Any, Callable
-from eslang.base.lists import from_items
+from eslang.base.lists import from_items, lisp_list
 from eslang.base.running import running
-from eslang.base.symbols import Value
+from eslang.base.symbols import Keyword, Value
 from eslang.runtime import failures
 from eslang.runtime.attempts import outcome
 from eslang.runtime.events import Wait
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from eslang.runtime.logical import Logical
 
 
+NEAREST = 50  # constructs of an active path that are told one by one
+OUTER = Keyword("OUTER")
 LEFT_BY = "deactivated"  # the kind of a wait for what leaves all that the task is in
 
 
@@ -127,19 +129,26 @@ class Level:
 class Stage:
     """One construct that is under way: how far it is, and why it does that, for those who look on."""
 
-    __slots__ = ("around", "condition", "number", "operator")
+    __slots__ = ("around", "condition", "depth", "number", "operator")
 
     def __init__(self, operator: Value, around: Stage | None, number: int = 1) -> None:
         self.operator = operator
         self.around = around
+        self.depth: int = 1 if around is None else around.depth + 1
         self.number = number  # of the step that is under way
         self.condition: list[Value] = []  # the one for which it was chosen
 
     def path(self) -> list[Value]:
-        """It and all around it, outermost first, each (OPERATOR NUMBER [CONDITION])."""
-        found = []
+        """It and those around it, outermost first, each (OPERATOR NUMBER [CONDITION]).
+
+        Beyond the nearest ones only how many there are is told, as (:OUTER NUMBER).
+        """
+        found: list[Value] = []
         stage: Stage | None = self
         while stage is not None:
+            if len(found) == NEAREST:
+                found.append(lisp_list(OUTER, stage.depth))
+                break
             found.append(from_items([stage.operator, stage.number, *stage.condition]))
             stage = stage.around
         return found[::-1]

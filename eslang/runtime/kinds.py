@@ -32,7 +32,8 @@ WAIT_ON = Part(
     "on",
     "str",
     "what it is for: `events`, `checkpoint`, `end`, `tasks`, `leaving`, `condition`, `sleep`, `period`, "
-    "`achievement` and `recovery` (of a maintained property), `outside` (a coroutine or a blocking call), …",
+    "`achievement` and `recovery` (of a maintained property), `outside` (a coroutine or a blocking call), "
+    "`goals` (that somebody gives), `turn`, `retry` (of a goal), …",
 )
 WAIT_OF = Part(
     "of",
@@ -48,7 +49,8 @@ PATH = Part(
     "path",
     "list[list]",
     "the constructs that are under way there, outermost first, each (OPERATOR NUMBER [CONDITION]): "
-    "which of its steps, and the condition for which that was chosen",
+    "which of its steps, and the condition for which that was chosen; of very many, the nearest, "
+    "behind (:OUTER NUMBER)",
 )
 RAISED = Part("raised", "Place | None", "where the failure was raised")
 
@@ -86,7 +88,8 @@ TABLE = (
                 "str",
                 "`abort-task`; `net`: its net is decided; `guardian`: what it guarded is over; "
                 "`owner`: its owner ends; `run`: the run does; "
-                "`caller`: the coroutine that awaits it was cancelled; `recovery`: nobody wants it any more",
+                "`caller`: the coroutine that awaits it was cancelled; `recovery`: nobody wants it any more; "
+                "`goal`: its goal is over",
             ),
             Part("by", "Task | None", "the task that asks for it, or whose end decided it"),
         ),
@@ -233,6 +236,22 @@ TABLE = (
         (
             Part("state", "str", "`no-action`, `attempting`, `achieved`"),
             Part("condition", "value", "the condition"),
+        ),
+    ),
+    Kind(
+        "goal-changed",
+        "something becomes of a top-level goal",
+        HERE,
+        (
+            Part(
+                "change",
+                "str",
+                "`added`; `pursued`: an attempt begins; `inactive`: it is to be maintained, and holds; "
+                "`failed`: an attempt has, and another follows; `blocked`: no method applies until facts "
+                "change; its end: `achieved`, `dropped`, `impossible`",
+            ),
+            Part("goal", "list", "the goal, as (ACHIEVE CONDITION) or (MAINTAIN CONDITION)"),
+            Part("failure", "Failure | None", "how the attempt ended that failed"),
         ),
     ),
     Kind(

@@ -57,6 +57,12 @@ def test_an_action_outside_of_all_constructs_has_no_path() -> None:
     assert paths("(atomic 1)") == ["(atomic 1): "]
 
 
+def test_of_a_very_long_path_the_nearest_constructs_are_told() -> None:
+    down = "(defstep down (n) (if (> n 0) (down (- n 1)) (princ n))) (down 60)"
+    deepest = paths(down)[-1]
+    assert ": (:outer 11) (down 1)" in deepest and deepest.count("(down 1)") == 50
+
+
 def test_a_choice_with_nothing_left_says_so() -> None:
     heard = [
         event.data["why"] for event in told("(do-any (scs:do :when nil 1))") if event.kind == "deactivated"
