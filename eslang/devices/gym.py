@@ -8,8 +8,8 @@ and imported when a plan first makes an environment.
 
 from __future__ import annotations
 
-from eslang.base.border import Text
-from eslang.base.failure import Failure
+from eslang.base.border import Text, to_lisp
+from eslang.base.failure import Failure, type_error
 from eslang.base.hints import TYPE_CHECKING, Any
 from eslang.base.suggest import nearest
 from eslang.base.symbols import Keyword, Symbol, lisp_name
@@ -87,13 +87,13 @@ class Environments:
         Source: ours; Gymnasium's make and reset.
         """
         name = Keyword(kind) if name is None else name
+        if isinstance(name, list):
+            raise type_error(to_lisp(name), "ATOM", Symbol.intern("MAKE-ENVIRONMENT", "ESL"))
         world = make_world(kind, options)
-        if not self.named:
-            self.agent.call("esl::%declare-environments")
-        elif name in self.named:
-            self.named[name].world.close()
-        self.agent.facts.remove([SENSED, name, "?_", "?_"])
-        self.named[name] = Environment(name, world, sensors or [])
+        self.agent.call("esl::%declare-environments")
+        if name in self.named:
+            self.environment_close(name)
+        self.named[name] = Environment(plain(name), world, list(map(plain, sensors or [])))
         return self.environment_reset(name, seed=self.agent.chance.randrange(SEEDS) if seed is None else seed)
 
     def environment_reset(self, environment: Any, *, seed: int | None = None) -> Any:
@@ -107,7 +107,7 @@ class Environments:
         Source: ours; Gymnasium's reset.
         """
         begun = self.known(environment)
-        self.agent.facts.remove([SCORE, environment, "?_"])
+        self.agent.facts.remove([SCORE, begun.name, "?_"])
         self.agent.facts.add_all(begun.begin(seed))
         return environment
 
@@ -129,6 +129,21 @@ class Environments:
         Source: ours.
         """
         return self.known(environment).score
+
+    def environment_close(self, environment: Any) -> Any:
+        """Close ENVIRONMENT, and the window that shows it; forget its facts.
+
+        Returns: ENVIRONMENT.
+        Fails:   :no-such-environment, with the nearest name there is.
+
+        Source: ours; Gymnasium's close.
+        """
+        closed = self.known(environment)
+        closed.world.close()
+        del self.named[environment]
+        for relation, others in ((SENSED, 2), (EPISODE, 1), (SCORE, 1)):
+            self.agent.facts.remove([relation, closed.name, *["?_"] * others])
+        return environment
 
     def known(self, environment: Any) -> Environment:
         """The environment of that name."""
@@ -184,7 +199,7 @@ def parts_of(observation: Any) -> list[tuple[Any, Any]]:
 
 
 def plain(value: Any) -> Any:
-    """VALUE without numpy: numbers, text, and lists of them."""
+    """VALUE as facts are to have it: text that is no name, and numbers that are not numpy's."""
     if isinstance(value, str):
         return Text(value)
     return value.tolist() if hasattr(value, "tolist") else value
@@ -199,4 +214,5 @@ def install(agent: Interpreter) -> None:
         here.environment_reset
     )
     agent.primitive(signature="(esl::%environment-step environment action)", outside=False)(here.step)
+    agent.primitive(signature="(esl::environment-close environment)", outside=False)(here.environment_close)
     agent.primitive(signature="(esl::environment-score environment)", outside=False)(here.environment_score)

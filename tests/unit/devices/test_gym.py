@@ -124,6 +124,24 @@ class TestEnvironments:
                   (print (list (length (db-query '(sensed :cart ?sensor ?_))) (environment-score :cart)))"""
         assert on_cart(text) == ["(1 0.0)"]
 
+    def test_what_is_closed_is_forgotten(self) -> None:
+        text = """(repeat :while (episode :cart :running) (environment-step :cart 1))
+                  (print (environment-close :cart))
+                  (print (db-query '(or (sensed ?_ ?_ ?_) (episode ?_ ?_) (score ?_ ?_))))"""
+        assert on_cart(text) == [":CART", "NIL"]
+        again = CART + "(environment-close :cart) (environment-score :cart)"
+        assert failure(again)[0] == ":NO-SUCH-ENVIRONMENT"
+
+    @pytest.mark.parametrize("name", ["'pole", '"pole"', "7", ":pole"])
+    def test_a_name_may_be_of_any_kind_but_a_list(self, name: str) -> None:
+        text = f"""(make-environment "CartPole-v1" :name {name} :sensors '("x" y))
+                   (environment-step {name} 1)
+                   (print (length (db-query '(sensed {name.strip("'")} "x" ?x))))
+                   (print (length (db-query '(sensed {name.strip("'")} ?sensor ?value))))
+                   (print (equal (environment-close {name}) {name}))"""
+        assert lines_of(text) == ["1", "4", "T"]
+        assert failure(text.replace(f":name {name}", ":name '(pole)"))[0] == ":TYPE-ERROR"
+
     def test_chance_comes_from_the_seed_of_the_run(self) -> None:
         text = """(make-environment "CartPole-v1" :name :cart)
                   (print (db-query '(sensed :cart ?sensor ?value)))"""
