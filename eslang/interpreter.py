@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sys
 
-from eslang import library
+from eslang import aims, library
 from eslang.base.border import to_lisp, to_python
 from eslang.base.calls import spread
 from eslang.base.control import Stop
@@ -20,7 +20,7 @@ from eslang.base.image import Image
 from eslang.base.many import values_list
 from eslang.base.packages import Package
 from eslang.base.printer import prin1
-from eslang.base.resolve import resolve_in
+from eslang.base.resolve import resolve_in, symbol_called
 from eslang.base.running import running, to_function
 from eslang.base.spans import Source, Spans
 from eslang.base.symbols import Symbol, Value
@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from eslang.knowledge import Knowledge
     from eslang.outside import Outside
     from eslang.reader.reader import Reading
+    from eslang.runtime.agenda import Agenda
     from eslang.runtime.locks import PropertyLocks
 
 DEEPEST = 400_000  # Python frames; what is deeper is a :stack-exhausted failure
@@ -69,6 +70,7 @@ class Interpreter:
     """
 
     closed = False
+    agenda: Agenda | None = None  # its goals; made when there is one
     _chance: Random | None = None  # this and the following are made when first wanted
     _outside: Outside | None = None
     _database: Facts | None = None
@@ -93,7 +95,7 @@ class Interpreter:
         self.bindings = Bindings(self.image)
         self.dynamic = Dynamic()  # of the task whose turn it is
         self.causes = Causes()
-        self.goals = Patterns()
+        self.methods = Patterns()  # of goals: what TO-ACHIEVE has defined
         self.resources: dict[Symbol, Resource] = {}
         self.locks: PropertyLocks | None = None  # made when first wanted
         self.runs = Runs(self, shuffled=shuffle, choices=choices, is_open=outside)
@@ -231,11 +233,11 @@ class Interpreter:
 
     def symbol(self, text: str) -> Symbol | None:
         """The symbol that TEXT names in the current package, as the reader would read it."""
-        package, mark, name = text.upper().rpartition(":")
-        resolve = resolve_in(self.image)
-        if not mark:
-            return resolve(None, name, False)
-        return resolve(package.rstrip(":") or "KEYWORD", name, False)
+        return symbol_called(text, resolve_in(self.image))
+
+    add_goal = aims.add_goal
+    drop_goal = aims.drop_goal
+    goals = property(aims.goals_of)
 
     def value(self, name: str) -> Any:
         """The value of a global variable, as Python has it. Raises Failure(:unbound-variable)."""

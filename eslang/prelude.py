@@ -70,6 +70,8 @@ ROOMS = [
     "eslang.constructs.scs.clauses",
     "eslang.constructs.scs.threads",
     "eslang.constructs.scs.parallel",
+    "eslang.constructs.scs.goals",
+    "eslang.constructs.scs.pursuing",
     "eslang.constructs.esl.guardians",
     "eslang.constructs.esl.timing",
     "eslang.constructs.esl.resources",

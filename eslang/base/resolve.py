@@ -52,3 +52,11 @@ def resolve_in(image: Image) -> Resolve:
         return package.intern(name)
 
     return resolve
+
+
+def symbol_called(text: str, resolve: Resolve) -> Symbol | None:
+    """The symbol that TEXT names, with or without a package, in capitals or not."""
+    package, mark, name = text.upper().rpartition(":")
+    if not mark:
+        return resolve(None, name, False)
+    return resolve(package.rstrip(":") or "KEYWORD", name, False)

@@ -36,7 +36,8 @@ from eslang.runtime.polls import CONDITION
 from eslang.runtime.tasks import Task
 
 NO_METHOD = Keyword("NO-APPLICABLE-METHOD")
-VAIN = (IMPOSSIBLE, DEADLOCK, ERROR, Keyword("UNBOUND-LOGIC-VARIABLE"))  # causes after which another attempt has no use
+UNBOUND = Keyword("UNBOUND-LOGIC-VARIABLE")
+VAIN = (IMPOSSIBLE, DEADLOCK, ERROR, UNBOUND)  # causes after which another attempt has no use
 SHORTEST, LONGEST = 0.001, 1.0  # seconds between the beginnings of attempts that fail
 Subscribe = Callable[[Callable[[object], None]], Callable[[], None]]  # to changes of facts; gives its end
 

@@ -177,7 +177,7 @@ class Task(Event):
         """All that it gave; nothing if it did not succeed."""
         return tuple(values_list(self.values)) if self.status is SUCCEEDED else ()
 
-    def ending(self) -> tuple[Value, ...] | None:
+    def outcome(self) -> tuple[Value, ...] | None:
         """The same once it has ended; None before. Who asks has seen how it ended."""
         self.seen = True
         return self.given() if self.status is not None else None

@@ -22,6 +22,7 @@ INSTANTS = {
     "abort",
     "deadlock",
     "goal",
+    "goal-changed",
     "action",
     "deactivated",
     "fact",

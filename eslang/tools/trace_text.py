@@ -36,6 +36,7 @@ SIGNS = {
     "checkpoint": "▸",
     "action": "»",
     "deactivated": "«",
+    "goal-changed": "◦",
     "fact": "+",
     "lock": "▪",
     "resource": "▪",

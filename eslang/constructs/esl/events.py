@@ -10,7 +10,6 @@ from eslang.base.running import running, to_function
 from eslang.base.symbols import Symbol, Value
 from eslang.compile.registry import CL, ESL, function, macro
 from eslang.runtime.events import Arguments, Event, Wait
-from eslang.runtime.tasks import Task
 
 if TYPE_CHECKING:
     from eslang.runtime.scheduler import Scheduler
@@ -74,10 +73,9 @@ def arguments_of_signal(events: Value, test: Value) -> Arguments:
     listed = events is None or events.__class__ is Cons
     wanted = tuple(map(as_event, items(events))) if listed else (as_event(events),)
     for event in wanted:
-        if isinstance(event, Task):
-            event.seen = True
-            if event.status is not None and test is None:
-                return event.given()
+        outcome = event.outcome()
+        if outcome is not None and test is None:
+            return outcome
     task = scheduler.at_work()
     asked = None if test is None else to_function(test)
     arguments: Arguments = scheduler.wait(Wait(task, "events", wanted, wanted, asked))
@@ -97,7 +95,8 @@ def wait_for_events(events: Value, test: Value = None) -> Value:
 
     With TEST, a function, only a signal whose arguments satisfy it counts;
     TEST is asked in the waiting task. A task is an event: it is signalled by
-    SIGNAL, and by its end, which a wait that comes later finds as well.
+    SIGNAL, and by its end, which a wait that comes later finds as well; and so
+    is a goal.
 
     Returns: the arguments of the signal, as multiple values.
     Fails:   :deadlock if nothing can signal any of EVENTS.

@@ -106,18 +106,21 @@ def achieve(form: Cons, environment: Any) -> Value:
 def define_goal(pattern: Value, methods: Value) -> Value:
     """Remember the methods of a condition."""
     session = running.session
-    session.goals.define(pattern, methods, is_library=not session.image.sealed)
+    session.methods.define(pattern, methods, is_library=not session.image.sealed)
     return pattern
 
 
-@function("(%achieve condition instance test)", ESL)
-def achieve_function(condition: Value, instance: Value, test: Value) -> Value:
-    """Achieve CONDITION, which TEST tells; INSTANCE gives it with its arguments computed."""
+@function("(%achieve condition instance test &optional work)", ESL)
+def achieve_function(condition: Value, instance: Value, test: Value, work: Value = None) -> Value:
+    """Achieve CONDITION, which TEST tells, by WORK if there is that.
+
+    INSTANCE gives CONDITION with its arguments computed, for which methods are looked for.
+    """
     if test() is not None:
         _tell("no-action", condition)
         return None
     _tell("attempting", condition)
-    bindings, methods = _methods(condition, instance)
+    bindings, methods = ({}, work) if work is not None else _methods(condition, instance)
     if methods is None or not _ran(bindings, methods):
         return failures.signal(Failure(NO_APPLICABLE_METHOD, condition), continuable=True)
     if test() is None:
@@ -136,7 +139,7 @@ def _tell(state: str, condition: Value) -> None:
 
 def _methods(condition: Value, instance: Value) -> tuple[dict[Symbol, Value], Value]:
     """The methods of CONDITION as it is written; else those whose pattern its instance matches."""
-    goals = running.session.goals
+    goals = running.session.methods
     methods = goals.exact(condition)
     return ({}, methods) if methods is not None else goals.find(instance())
 

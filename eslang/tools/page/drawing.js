@@ -13,7 +13,7 @@ const MARKS = { // kind: [colour, shape, rank]
   "interrupt": ["interrupt", "bolt", 6], "abort": ["abort", "stop", 6], "period-missed": ["recover", "dot", 5],
   "goal": ["goal", "flag", 4], "checkpoint": ["signal", "box", 3], "signal": ["signal", "wedge", 3],
   "deactivated": ["abort", "dot", 3], "action": ["signal", "dot", 1],
-  "fact": ["fact", "ring", 2], "lock": ["goal", "ring", 2], "resource": ["goal", "ring", 2],
+  "goal-changed": ["goal", "dot", 3], "fact": ["fact", "ring", 2], "lock": ["goal", "ring", 2], "resource": ["goal", "ring", 2],
 };
 const ENDS = { succeeded: ["good", "tick"], failed: ["bad", "cross"], aborted: ["abort", "stop"] };
 const LEGEND = [
@@ -23,7 +23,7 @@ const LEGEND = [
   ["arrow", "start", "starts"], ["arrow", "join", "end awaited"], ["mark", "failure", "failure"],
   ["mark", "recovery", "recovery"], ["mark", "signal", "signal"], ["mark", "checkpoint", "checkpoint"],
   ["mark", "failure-passed", "failure of another"], ["mark", "period-missed", "period missed"], ["mark", "run-stopped", "run stopped"],
-  ["mark", "goal", "goal"], ["mark", "fact", "fact"], ["mark", "action", "action"], ["mark", "deactivated", "deactivated"], ["mark", "lock", "property lock"], ["mark", "resource", "resource"], ["end", "succeeded", "succeeded"], ["end", "aborted", "aborted"],
+  ["mark", "goal", "goal"], ["mark", "goal-changed", "goal of the agent"], ["mark", "fact", "fact"], ["mark", "action", "action"], ["mark", "deactivated", "deactivated"], ["mark", "lock", "property lock"], ["mark", "resource", "resource"], ["end", "succeeded", "succeeded"], ["end", "aborted", "aborted"],
 ];
 const state = { scale: "balanced", from: 0, to: 1, hover: null, chosen: null, off: new Set(), shut: new Set(), find: "", row: 26 };
 const head = $("head"), lanes = $("lanes"), scroll = $("scroll"), tip = $("tip"), more = $("more");

@@ -33,6 +33,8 @@ EVERY_KIND = """
 (defun up? () *up*)
 (to-achieve (up?) (t (setq *up* t)))
 (achieve (up?))
+(add-goal (achieve (up?)))
+(pursue-goals)
 (handler-case (fail :taken) (error (e) 1))
 (handler-case (car 5) (error (e) 1))
 (let ((turns 0))

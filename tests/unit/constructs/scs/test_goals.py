@@ -73,7 +73,8 @@ def test_a_condition_asks_global_variables_anew() -> None:
 
 def test_a_goal_keeps_the_bindings_of_the_place_where_it_is_given() -> None:
     text = """(assert '(is-a hall room))
-    (with-query-bindings '(is-a ?room room) (add-goal (achieve (lamp #?room :on)) :by (assert '(lamp #?room :on))))
+    (with-query-bindings '(is-a ?room room) (add-goal (achieve (lamp #?room :on)) :by
+      (assert '(lamp #?room :on))))
     (print (goals)) (pursue-goals) (print (db-query '(lamp ?x :on)))"""
     assert lines_of(LAMPS + text) == ["(#<GOAL (ACHIEVE (LAMP HALL :ON))>)", "(((?X . HALL)))"]
 
@@ -119,7 +120,8 @@ def test_what_turns_out_to_be_no_goal_is_a_type_error(form: str) -> None:
 def test_a_goal_that_is_dropped_leaves_its_attempt_with_cleanups() -> None:
     text = """
     (defvar *goal*
-      (add-goal (achieve (cup held)) :by (with-cleanup-procedure (progn (sleep 1) (print :cleaned)) (sleep 100))))
+      (add-goal (achieve (cup held)) :by (with-cleanup-procedure (progn (sleep 1) (print :cleaned))
+        (sleep 100))))
     (spawn (progn (sleep 5) (print (drop-goal *goal*)) (print (drop-goal *goal*)) (print (goals))
                   (print (multiple-value-list (wait-for-events *goal*)))))
     (print (pursue-goals))"""
@@ -134,6 +136,7 @@ def test_a_goal_may_be_dropped_by_what_it_says() -> None:
     assert lines_of(LAMPS + text) == ["(T NIL NIL T NIL)"]
 
 
+@pytest.mark.slow
 def test_a_goal_may_drop_itself() -> None:
     text = """(add-goal (achieve (cup held)) :by (scs:do (drop-goal (achieve (cup held))) (print :never)))
     (add-goal (achieve (lamp hall :on)))
@@ -144,7 +147,8 @@ def test_a_goal_may_drop_itself() -> None:
 
 def test_the_same_goal_given_again_begins_when_the_attempt_that_is_dropped_has_ended() -> None:
     text = """
-    (add-goal (achieve (cup held)) :by (with-cleanup-procedure (progn (sleep 2) (print :cleaned)) (sleep 100)))
+    (add-goal (achieve (cup held)) :by (with-cleanup-procedure (progn (sleep 2) (print :cleaned))
+      (sleep 100)))
     (spawn (progn (sleep 1) (drop-goal (achieve (cup held)))
                   (add-goal (achieve (cup held)) :by (progn (print :again) (assert '(cup held))))))
     (pursue-goals) (print (goals))"""
@@ -162,17 +166,13 @@ def test_who_aborts_the_task_of_a_goal_drops_it() -> None:
 
 
 def test_a_goal_for_which_there_is_no_method_is_impossible_when_nothing_else_goes_on() -> None:
-    text = "(defvar *goal* (add-goal (achieve (at robot moon)))) (pursue-goals)"
-    came = run(text)
-    assert str(came.failure.cause) == ":IMPOSSIBLE-GOALS"
-    assert [str(each) for each in came.failure.arguments] == [
-        "((ACHIEVE (AT ROBOT MOON)) :NO-APPLICABLE-METHOD (AT ROBOT MOON))"
-    ] or "NO-APPLICABLE-METHOD" in str(came.failure.arguments)
-    text += "(print (list (goal-status *goal*) (goals)))"
-    text = text.replace(
-        "(pursue-goals)", "(with-recovery-procedures ((:impossible-goals (abort 1))) (pursue-goals))"
+    text = "(progn (defvar *goal* (add-goal (achieve (at robot moon)))) (pursue-goals))"
+    assert (
+        str(run(text).failure)
+        == "failure :IMPOSSIBLE-GOALS (((ACHIEVE (AT ROBOT MOON)) :NO-APPLICABLE-METHOD (AT ROBOT MOON)))"
     )
-    assert lines_of(text)[-1] == "(:IMPOSSIBLE NIL)"
+    text = f"(with-recovery-procedures ((:impossible-goals (abort 1))) {text})"
+    assert lines_of(f"{text} (print (list (goal-status *goal*) (goals)))") == ["(:IMPOSSIBLE NIL)"]
 
 
 def test_a_goal_that_finds_no_method_waits_for_facts_while_others_are_pursued() -> None:
@@ -219,7 +219,8 @@ def test_a_plan_can_say_that_a_goal_is_impossible(failing: str, cause: str) -> N
 def test_retries_limit_the_attempts() -> None:
     text = """(defvar *tries* 0)
     (add-goal (achieve (cup held)) :by (progn (incf *tries*) (fail :slipped)) :retries 2)
-    (print (with-recovery-procedures (((:impossible-goals goals) (abort goals))) (pursue-goals))) (print *tries*)"""
+    (print (with-recovery-procedures (((:impossible-goals goals) (abort goals))) (pursue-goals)))
+      (print *tries*)"""
     assert lines_of(text)[-2:] == ["(((ACHIEVE (CUP HELD)) :SLIPPED))", "3"]
 
 
@@ -229,6 +230,7 @@ def test_of_goals_in_a_deadlock_the_last_one_is_given_up_and_the_others_go_on() 
     (add-goal (achieve (one)) :by (progn (wait-for-events free) (assert '(one))))
     (add-goal (achieve (two)) :by
       (with-cleanup-procedure (signal free) (wait-until (nobody knows))))
-    (print (with-recovery-procedures (((:impossible-goals goals) (abort (mapcar 'car goals)))) (pursue-goals)))
+    (print (with-recovery-procedures (((:impossible-goals goals) (abort (mapcar 'car goals))))
+      (pursue-goals)))
     (print (db-query '(one)))"""
     assert lines_of(text)[-2:] == ["((ACHIEVE (TWO)))", "(NIL)"]

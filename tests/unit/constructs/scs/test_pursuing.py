@@ -5,6 +5,7 @@ from __future__ import annotations
 from io import StringIO
 from typing import Any
 
+import pytest
 from pursuits import BATTERY, LAMPS, SEEDS, changes_of
 
 from eslang import Interpreter
@@ -41,12 +42,6 @@ def test_a_method_that_does_not_bring_it_about_is_tried_again_too() -> None:
 
 def test_attempts_that_take_no_time_and_fail_follow_each_other_ever_more_slowly() -> None:
     text = """
-    (defvar *times* nil)
-    (add-goal (achieve (never)) :by (progn (push (now) *times*) (fail :no)) :retries 15)
-    (handler-case (pursue-goals) (error (e) e))
-    (with-recovery-procedures ((:impossible-goals (abort nil))) (pursue-goals))
-    """
-    text = """
     (defvar *tries* 0)
     (to-achieve (never) (t (incf *tries*) (fail :no)))
     (add-goal (achieve (never)))
@@ -59,13 +54,15 @@ def test_attempts_that_take_no_time_and_fail_follow_each_other_ever_more_slowly(
 def test_a_changed_fact_lets_it_try_again_at_once() -> None:
     text = """
     (defvar *tries* 0)
-    (to-achieve (door open) (t (if (< (incf *tries*) 12) (fail :shut)) (if (db-query '(key found)) (assert '(door open)) (fail :locked))))
+    (to-achieve (door open)
+      (t (if (< (incf *tries*) 12) (fail :shut))
+         (if (db-query '(key found)) (assert '(door open)) (fail :locked))))
     (add-goal (achieve (door open)))
     (add-goal (achieve (key found)) :by (progn (sleep 4.5) (assert '(key found))))
     (defvar *begun* (get-internal-real-time))
     (pursue-goals)
     (print (/ (- (get-internal-real-time) *begun*) internal-time-units-per-second))"""
-    assert float(lines_of(text)[0].replace("9/2", "4.5")) == 4.5
+    assert lines_of(text) == ["9/2"]
 
 
 def test_a_step_may_stand_in_place_of_methods() -> None:
@@ -104,6 +101,7 @@ def test_a_goal_to_maintain_is_active_whenever_it_is_false_and_stays() -> None:
     assert lines_of(BATTERY + text) == [":CHARGE"] * 2 + ["((#<GOAL (MAINTAIN (BATTERY :FULL))>) :PENDING)"]
 
 
+@pytest.mark.slow
 def test_a_goal_to_maintain_that_is_violated_by_the_last_action_is_restored_before_the_end() -> None:
     text = """
     (add-goal (maintain (battery :full)))
@@ -138,7 +136,8 @@ def test_nobody_asks_a_condition_over_facts_unless_they_change() -> None:
 def test_maintain_is_a_step_that_lasts_until_a_modifier_ends_it() -> None:
     text = """
     (task-net
-      (world (sleep 3) (assert '(battery :low)) (sleep 3) (assert '(battery :low)) (sleep 3) (assert '(evening)))
+      (world (sleep 3) (assert '(battery :low)) (sleep 3) (assert '(battery :low)) (sleep 3)
+        (assert '(evening)))
       (keeper (print (scs:do :until (evening) (maintain (battery :full))))))"""
     assert lines_of(BATTERY + text) == [":CHARGE", ":CHARGE", ":DEACTIVATED"]
 
@@ -161,6 +160,7 @@ def letters(a: str = "", b: str = "", seed: int = 0) -> str:
     return "".join(each for each in found.split() if each in ("A", "B"))
 
 
+@pytest.mark.slow
 def test_goals_are_interleaved_by_action_as_chance_has_it() -> None:
     found = {letters(seed=seed) for seed in SEEDS}
     assert len(found) > 4
@@ -168,20 +168,24 @@ def test_goals_are_interleaved_by_action_as_chance_has_it() -> None:
     assert letters(seed=3) == letters(seed=3)
 
 
+@pytest.mark.slow
 def test_the_goal_that_is_worth_most_goes_on() -> None:
     for seed in SEEDS:
         assert letters(b=":utility 5", seed=seed) == "BBBBBBAAAAAA"
         assert letters(":utility 7", ":utility 5", seed=seed) == "AAAAAABBBBBB"
 
 
+@pytest.mark.slow
 def test_goals_of_the_same_utility_take_turns() -> None:
     assert len({letters(":utility 5", ":utility 5", seed) for seed in SEEDS}) > 4
 
 
+@pytest.mark.slow
 def test_utilities_are_asked_anew_after_each_action() -> None:
     text = """(defvar *done* 0)
     (defmacro letters (name)
-      `(scs:do ,@(loop for i below 4 collect `(progn (incf *done*) (princ ',name) (princ " "))) (assert '(done ,name))))
+      `(scs:do ,@(loop for i below 4 collect `(progn (incf *done*) (princ ',name) (princ " ")))
+        (assert '(done ,name))))
     (add-goal (achieve (done a)) :by (letters a) :utility (if (< *done* 2) 9 1))
     (add-goal (achieve (done b)) :by (letters b) :utility 5)
     (pursue-goals)"""
@@ -189,21 +193,25 @@ def test_utilities_are_asked_anew_after_each_action() -> None:
         assert "".join(" ".join(lines_of(text, seed=seed)).split()) == "AABBBBAA"
 
 
+@pytest.mark.slow
 def test_while_the_best_goal_waits_others_go_on_and_give_way_when_it_is_ready() -> None:
     text = """
     (add-goal (achieve (done best)) :utility 9 :by
       (scs:do (princ "b1 ") (sleep 2.5) (princ "b2 ") (princ "b3 ") (assert '(done best))))
     (add-goal (achieve (done other)) :by
-      (scs:do (princ "o1 ") (sleep 1) (princ "o2 ") (sleep 1) (princ "o3 ") (sleep 1) (princ "o4 ") (assert '(done other))))
+      (scs:do (princ "o1 ") (sleep 1) (princ "o2 ") (sleep 1) (princ "o3 ") (sleep 1) (princ "o4 ")
+        (assert '(done other))))
     (pursue-goals)"""
     for seed in SEEDS:
         assert " ".join(lines_of(text, seed=seed)).split() == ["b1", "o1", "o2", "o3", "b2", "b3", "o4"]
 
 
+@pytest.mark.slow
 def test_branches_inside_a_goal_count_as_the_goal() -> None:
     text = """
     (add-goal (achieve (done best)) :utility 9 :by
-      (scs:do (do-all (scs:do (princ "x ") (princ "x ")) (scs:do (princ "x ") (princ "x "))) (assert '(done best))))
+      (scs:do (do-all (scs:do (princ "x ") (princ "x ")) (scs:do (princ "x ") (princ "x ")))
+        (assert '(done best))))
     (add-goal (achieve (done other)) :by (scs:do (princ "o ") (princ "o ") (assert '(done other))))
     (pursue-goals)"""
     for seed in SEEDS:
@@ -216,11 +224,14 @@ def test_a_utility_that_is_no_number_is_a_failure_of_the_pursuit() -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_goal_that_is_added_is_taken_up_before_the_next_action() -> None:
     text = """
-    (defmacro many (&rest names) `(scs:do ,@(loop for name in names collect `(progn (princ ',name) (princ " ")))))
+    (defmacro many (&rest names) `(scs:do ,@(loop for name in names collect `(progn (princ ',name)
+      (princ " ")))))
     (add-goal (achieve (done a)) :by
-      (scs:do (princ "a1 ") (add-goal (achieve (done new)) :utility 5 :by (scs:do (princ "new ") (assert '(done new))))
+      (scs:do (princ "a1 ") (add-goal (achieve (done new)) :utility 5 :by (scs:do (princ "new ")
+        (assert '(done new))))
               (princ "a2 ") (princ "a3 ") (assert '(done a))))
     (add-goal (achieve (done b)) :by (scs:do (sleep 100) (assert '(done b))))
     (pursue-goals)"""
@@ -239,10 +250,9 @@ def test_goals_are_pursued_by_one_at_a_time() -> None:
     text = """(add-goal (achieve (cup held)) :by (sleep 3) :retries 0)
     (spawn (with-recovery-procedures ((:general-failure (abort 1))) (pursue-goals)))
     (sleep 1) (pursue-goals)"""
-    came = run(text)
-    assert "the goals are being pursued already, by the task pursue-goals" in str(came.failure).lower() or (
-        str(came.failure.cause) == ":CONTROL-ERROR"
-    )
+    failure = run(text).failure
+    assert str(failure.cause) == ":CONTROL-ERROR"
+    assert "the goals are being pursued already, by the task" in str(failure)
 
 
 def test_goals_that_are_left_can_be_pursued_again() -> None:
@@ -296,7 +306,8 @@ def test_the_active_path_names_the_goal() -> None:
 
 def test_listeners_hear_of_each_change() -> None:
     text = """
-    (add-goal (achieve (done a)) :by (if (db-query '(tried)) (assert '(done a)) (progn (assert '(tried)) (fail :once))))
+    (add-goal (achieve (done a)) :by (if (db-query '(tried)) (assert '(done a)) (progn (assert '(tried))
+      (fail :once))))
     (pursue-goals)"""
     assert changes_of(text) == [
         "added (achieve (done a))",
@@ -310,6 +321,7 @@ def test_listeners_hear_of_each_change() -> None:
 # --- with the rest of ESL ------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_goal_whose_lock_another_one_holds_is_tried_until_it_is_free() -> None:
     text = (
         LAMPS
@@ -346,16 +358,14 @@ def test_recovery_procedures_around_the_pursuit_are_not_asked_by_goals() -> None
     assert lines_of(text)[-1] == "T"
 
 
-def test_no_task_watch_or_lock_is_left() -> None:
-
+def test_nothing_is_left_of_a_pursuit() -> None:
+    text = """
+    (add-goal (maintain (battery :full))) (add-goal (achieve (a)) :by (fail :impossible))
+    (add-goal (achieve (b)))
+    (with-recovery-procedures ((:impossible-goals (abort 1))) (pursue-goals))"""
     with Interpreter(clock="virtual", output=StringIO()) as agent:
-        agent.eval(
-            BATTERY + "(add-goal (maintain (battery :full))) (add-goal (achieve (a)) :by (fail :impossible))"
-        )
-        agent.eval(
-            "(add-goal (achieve (b))) (with-recovery-procedures ((:impossible-goals (abort 1))) (pursue-goals))"
-        )
+        agent.eval(BATTERY + text)
+        assert [str(goal) for goal in agent.goals] == ["(maintain (battery :full))"]
         assert agent.agenda is not None and agent.agenda.pursuit is None
-        assert agent.runs.lives.count == 0
-        assert (len(agent.timers) if hasattr(agent, "timers") else len(agent.scheduler.timers)) == 0
-        assert agent.database.subscribers == []
+        assert (agent.runs.lives.count, len(agent.scheduler.timers)) == (0, 0)
+        assert (agent.scheduler.polls.waits, agent.database.subscribers) == ([], [])
