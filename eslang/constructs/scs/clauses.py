@@ -6,6 +6,7 @@ from eslang.base.failure import type_error
 from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.many import primary
+from eslang.base.number_kinds import is_number
 from eslang.base.running import running
 from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, T, Value
@@ -241,7 +242,9 @@ class Choice(Asker):
         outer = dynamic.logical
         dynamic.logical = outer.within(mine.asked.bindings)
         try:
-            utility = as_real(failures.guarded(mine.utility))  # type: ignore[arg-type]
+            utility = failures.guarded(mine.utility)  # type: ignore[arg-type]
+            if not is_number(utility):
+                raise type_error(utility, "REAL", Symbol.intern("DO-BEST", SCS))
             return utility if self.rate is None else utility * discount_of(mine.action)
         finally:
             dynamic.logical = outer
@@ -268,13 +271,6 @@ class Choice(Asker):
         among = [self.alternatives[number].asked for number in self.tries.left]
         conditions = [asked.condition for asked in among]
         self.idle(conditions[0] if len(conditions) == 1 else Cons(OR, from_items(conditions)), among)
-
-
-def as_real(value: Value) -> Value:
-    """VALUE, which is to be a real number."""
-    if value.__class__ is int or value.__class__ is float or value.__class__.__name__ == "Ratio":
-        return value
-    raise type_error(value, "REAL", Symbol.intern("DO-BEST", SCS))
 
 
 def do_first_values(operator: Value, modifiers: Value, clauses: Value, starred: Value) -> Value:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from eslang.base.failure import control_error, type_error
 from eslang.base.hints import Any, NamedTuple
 from eslang.base.lists import Cons, lisp_list
+from eslang.base.number_kinds import is_number
 from eslang.base.running import running
 from eslang.base.symbols import Symbol, T, Value
 from eslang.compile.registry import SCS, function
@@ -43,8 +44,7 @@ def rate_of(learn: Value) -> float | None:
 
 def is_share(value: Value) -> bool:
     """Whether VALUE is a number between 0 and 1."""
-    is_real = value.__class__ in (int, float) or value.__class__.__name__ == "Ratio"
-    return bool(is_real and 0 <= value <= 1)
+    return is_number(value) and bool(0 <= value <= 1)
 
 
 @function("(reinforce reward)", SCS)

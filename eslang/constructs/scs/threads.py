@@ -10,6 +10,7 @@ from eslang.base.failure import type_error
 from eslang.base.hints import Any
 from eslang.base.lists import Cons
 from eslang.base.many import pack, primary
+from eslang.base.number_kinds import is_number
 from eslang.base.running import running
 from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, Value, truth
@@ -102,8 +103,7 @@ def with_cycle(form: Cons, environment: Any) -> Value:
 def do_in_cycles(operator: Value, modifiers: Value, steps: Value, frequency: Value) -> Value:
     """Do STEPS FREQUENCY times a second."""
     listed = read_steps(steps)
-    is_real = frequency.__class__ in (int, float) or frequency.__class__.__name__ == "Ratio"
-    if not is_real or not frequency > 0:
+    if not is_number(frequency) or not frequency > 0:
         raise type_error(frequency, "POSITIVE-REAL", Symbol.intern("WITH-CYCLE", SCS))
 
     def body() -> Value:
