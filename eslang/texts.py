@@ -12,7 +12,7 @@ from types import FunctionType
 
 from eslang.base.decoding import decode, file_bytes
 from eslang.base.diagnostics import Diagnostic, EslError
-from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, Iterable, Iterator
 from eslang.base.image import PACKAGE
 from eslang.base.packages import Package
 from eslang.base.spans import Source
@@ -23,7 +23,9 @@ from eslang.lisp.loading import LOAD_PATHNAME
 from eslang.runtime.failures import run_apart
 
 if TYPE_CHECKING:
+    from eslang.compile.check import Checker
     from eslang.later import Later
+    from eslang.reader.reader import Reading
 
 Run = Callable[[FunctionType], Value]
 
@@ -121,6 +123,18 @@ class Texts:
 
     def check(self, paths: Iterable[str]) -> list[Diagnostic]:
         """What can be known of a program, the files in order, without running it."""
+        return self.analyse(paths).finish()
+
+    def analyse(
+        self,
+        paths: Iterable[str],
+        read: Callable[[str], bytes] = file_bytes,
+        seen: Callable[[Reading], None] = lambda _: None,
+    ) -> Checker:
+        """The checker of a program, which has gone through all of it.
+
+        READ gives what a file holds; SEEN gets each form.
+        """
         from eslang.compile.check import Checker
         from eslang.constructs.esl.relation_check import RelationCheck
 
@@ -130,14 +144,15 @@ class Texts:
         checker = Checker(session.image, lambda unit, code: run_apart(unit.load(code)), RelationCheck)
         for path in paths:
             try:
-                source = decode(file_bytes(path), path)
+                source = decode(read(path), "<stdin>" if path == "-" else path)
             except EslError as error:
                 checker.found.append(error.diagnostic)
+                checker.is_whole = False
                 continue
             before = package.value
-            checker.text(session.readings(source), session.compiler(source.name))
+            checker.text(shown_to(seen, session.readings(source)), session.compiler(source.name))
             package.value = before
-        return checker.finish()
+        return checker
 
     def _compile(self, source: Source, run: Run = run_apart) -> tuple[Any, Value]:
         """Compile and run a source form by form; its compiler, and the value of the last form."""
@@ -163,3 +178,10 @@ class Texts:
             code = cache.take_up(kept, self.session.image, self.session.support)
             for form in kept.codes:
                 run(code.load(form))
+
+
+def shown_to(seen: Callable[[Reading], None], readings: Iterable[Reading]) -> Iterator[Reading]:
+    """READINGS, each of which SEEN gets first."""
+    for reading in readings:
+        seen(reading)
+        yield reading

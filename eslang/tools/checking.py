@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 
 from eslang.base.render import render
-from eslang.tools.opening import readable
+from eslang.tools.opening import bytes_of, readable
 from eslang.tools.options import Chosen, Usage
 
 WRONG = 65
@@ -24,8 +24,8 @@ def check(chosen: Chosen) -> int:
     errors = warnings = 0
     for path in chosen.words:
         readable(path)
-    with Interpreter(clock="virtual") as interp:
-        for diagnostic in interp.check(chosen.words):
+    with Interpreter(clock="virtual") as interp, interp.at_work():
+        for diagnostic in interp.texts.analyse(chosen.words, bytes_of).finish():
             errors += diagnostic.severity == "error"
             warnings += diagnostic.severity != "error"
             sys.stderr.write(render(diagnostic) + "\n")

@@ -98,6 +98,10 @@ def perform(chosen: Chosen) -> int:
         from eslang.tools.traces import trace
 
         return trace(chosen)
+    if name == "graph":
+        from eslang.tools.graph import graph
+
+        return graph(chosen)
     if name == "doc":
         from eslang.tools.docs import doc
 

@@ -52,7 +52,7 @@ PAGES = (
         "This page is what `esl --help` and its like print.\n"
         "How to use the command: [run a plan](../how-to/run-a-plan.md), "
         "[trace a run](../how-to/trace-a-run.md), [talk at the prompt](../how-to/talk-at-the-prompt.md), "
-        "[test a plan](../how-to/test-a-plan.md).",
+        "[test a plan](../how-to/test-a-plan.md), [draw a plan](../how-to/draw-a-plan.md).",
         (),
     ),
     Page(

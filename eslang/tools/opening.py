@@ -10,6 +10,7 @@ import os
 import sys
 
 from eslang.base.control import Stop
+from eslang.base.decoding import file_bytes
 from eslang.base.failure import Failure
 from eslang.base.hints import Any, Callable, TextIO
 from eslang.tools.options import Chosen, Usage
@@ -211,6 +212,13 @@ def readable(path: str) -> str:
         except OSError as trouble:
             raise Usage(f"cannot read `{path}`: {reason(trouble)}") from None
     return path
+
+
+def bytes_of(path: str) -> bytes:
+    """What the file at PATH holds; `-` is standard input."""
+    if path != "-":
+        return file_bytes(path)
+    return sys.stdin.read().encode("utf-8", "surrogateescape")
 
 
 def reason(trouble: OSError) -> str:

@@ -79,6 +79,9 @@ FACTS = Option("--facts", "FILE", "begin with the facts in FILE, a database, and
 EVAL = Option("-e", "FORM", "evaluate FORM and print its values; may be repeated")
 DOUBLES = Option("--doubles", "FILE", "let the doubles that FILE defines stand in for devices")
 COVERAGE = Option("--coverage", None, "report what of the plans did not run")
+OF = Option("--of", "NAME", "draw only the definitions of NAME; may be repeated")
+SVG = Option("--svg", None, "draw a picture, SVG, rather than a flowchart of Mermaid")
+PICTURE = Option("-o", "FILE", "write the drawing to FILE; SVG, if it ends in .svg")
 TELLING = (
     Option("--task", "NAME", "tell only what concerns this task; may be repeated"),
     Option("--kind", "KIND", "tell only events of this kind; may be repeated"),
@@ -127,6 +130,14 @@ COMMANDS = {
             (*TELLING, HELP),
             "FILE is what `esl run --trace FILE` has written; `-` is standard input. Without --html or\n"
             "--perfetto, prints the tasks as a tree, and what happened as a timeline.",
+        ),
+        Command(
+            "graph",
+            "[options] FILE...",
+            "draw the structure of plans",
+            (OF, SVG, PICTURE, HELP),
+            "Draws definitions, their steps, conditions and tasks, and who calls whom, as a flowchart of\n"
+            "Mermaid, or as SVG. The plans are checked, as `esl check` does it, and not run.",
         ),
         Command("check", "FILE...", "say what can be known of plans without running them", (HELP,)),
         Command("doc", "NAME...", "print the signature and documentation of names", (HELP,)),
