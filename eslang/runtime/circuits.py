@@ -65,7 +65,7 @@ class Level:
         if self.is_stale or not self.live:
             return
         self.is_stale = True
-        self.call = Interrupt("circuit", self.ask, self.extent, at_waits=True)
+        self.call = Interrupt("circuit", ask_stale, self.extent, at_waits=True)
         scheduler, task = running.session.scheduler, self.task
         if scheduler.current is task:  # it may wait before the action has ended
             task.interrupts = [*task.interrupts, self.call]
@@ -191,6 +191,18 @@ def end_of_action() -> None:
     ask_all(level, polled=True)
     if level.is_branch and take_turns(session):
         ask_all(level, polled=True)  # others have acted
+
+
+def ask_around() -> None:
+    """Something has ended that is no action, but may have changed as much: ask the levels."""
+    dynamic = running.session.dynamic
+    if not dynamic.masked:
+        ask_all(dynamic.logical.circuit, polled=True)
+
+
+def ask_stale() -> None:
+    """The task waits, and what it is in rests on something that has changed: ask the levels."""
+    ask_all(running.session.dynamic.logical.circuit, polled=False)
 
 
 def ask_all(level: Level | None, *, polled: bool) -> None:

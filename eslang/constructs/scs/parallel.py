@@ -15,7 +15,7 @@ from eslang.constructs.scs.asking import run_under
 from eslang.constructs.scs.stepping import Step, expand, persist, read_steps
 from eslang.runtime import failures
 from eslang.runtime.attempts import noticed
-from eslang.runtime.circuits import Level, Stage, stage_here
+from eslang.runtime.circuits import Level, Stage, ask_around, stage_here
 from eslang.runtime.lives import passed_on
 from eslang.runtime.nets import Net, all_must_succeed
 
@@ -92,6 +92,7 @@ def run_all(steps: list[Step], starred: bool) -> Value:
         level.end()
         dynamic.logical = outer
     if net.deciding is not None:
+        ask_around()
         return failures.signal(passed_on(net.deciding), continuable=True)
     return T
 
