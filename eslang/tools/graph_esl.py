@@ -6,11 +6,11 @@ from collections.abc import Hashable
 
 from eslang.base.lists import Cons, lisp_list
 from eslang.base.symbols import Keyword, Symbol, Value
-from eslang.compile.registry import CL, ESL, SCS
+from eslang.compile.registry import CL, ESL
 from eslang.tools.graph_lisp import led, nothing
 from eslang.tools.graph_model import Box, Key
 from eslang.tools.graph_text import name_text, text_of
-from eslang.tools.graph_walk import Reader, Scope, Walk, after, holders
+from eslang.tools.graph_walk import Reader, Scope, Walk, add, after, holders
 
 
 def recovering(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
@@ -98,7 +98,11 @@ def looping(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
 
 def keeping(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
     """What holds something while its body is done: locks, resources."""
-    return walk.around("keep", holder, walk.heads_of(holder.car.car) or 0, scope)
+    heads = walk.heads_of(holder.car.car) or 0
+    options, rest = walk.options(after(holder.car, heads + 1))
+    box = walk.headed("keep", holder, heads, walk.body(rest, scope))
+    box.lines += options
+    return [box]
 
 
 def acting(kind: str) -> Reader:
@@ -115,9 +119,21 @@ def achieving(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
     box = walk.box("goal", [text_of(walk.spans, holder)], holder.car)
     goal = after(holder.car, 1)
     if goal is not None:
-        box.gives.append(Key("goal", len(walk.goals)))
-        walk.goals.append(goal.car)
+        want(walk, box, goal.car)
     return [box]
+
+
+def want(walk: Walk, box: Box, goal: Value) -> None:
+    """Let lines lead from BOX to the methods of GOAL, when all are known."""
+    box.gives.append(Key("goal", len(walk.goals)))
+    walk.goals.append(goal)
+
+
+def bindings(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
+    """WITH-QUERY-BINDINGS: the query, and the body for one solution."""
+    option = after(holder.car, 2)
+    heads = 2 if option is not None and isinstance(option.car, Keyword) else 1
+    return walk.around("around", holder, heads, scope)
 
 
 def checkpoint(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
@@ -152,9 +168,9 @@ def waiting(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
         alone = isinstance(events.car, Symbol)
         for name in [events.car] if alone else [each.car for each in holders(events.car)]:
             if name in scope.tasks:
-                box.takes.append(Key("end", scope.tasks[name]))
+                add(box.takes, [Key("end", scope.tasks[name])])
             elif isinstance(name, Symbol):
-                box.takes.append(event_key(walk, name, scope))
+                add(box.takes, [event_key(walk, name, scope)])
     return [box]
 
 
@@ -195,6 +211,7 @@ READERS: dict[Value, Reader] = {
     **dict.fromkeys(named("SPAWN"), spawning),
     **dict.fromkeys(named("PERIODICALLY", "WHENEVER"), looping),
     **dict.fromkeys(named(*KEEPING), keeping),
+    **dict.fromkeys(named("WITH-QUERY-BINDINGS"), bindings),
     **dict.fromkeys(named("FAIL"), acting("fail")),
     **dict.fromkeys(named("RETRY", "ABORT", "NEXT-BINDINGS"), acting("leave")),
     **dict.fromkeys(named("ABORT-TASK", "INTERRUPT-TASK"), acting("signal")),
@@ -206,6 +223,4 @@ READERS: dict[Value, Reader] = {
     **dict.fromkeys(named("WAIT-FOR-EVENTS", "WAIT-FOR-TASK"), waiting),
     **dict.fromkeys(named("SIGNAL", "SIGNAL-EVENT"), signalling),
     Symbol.intern("SLEEP", CL): acting("wait"),
-    Symbol.intern("SUSPEND", SCS): acting("wait"),
-    Symbol.intern("RESUME", SCS): acting("signal"),
 }

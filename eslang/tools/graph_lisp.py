@@ -24,7 +24,7 @@ def function(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
     if name.__class__ is Cons and name.car is LAMBDA:
         return walk.read(rest, scope)
     key = scope.functions.get(name) or walk.functions.get(hashable(name))
-    return [] if key is None else [walk.act("call", Cons(holder.car, None), scope, key)]
+    return [] if key is None else [walk.act("call", holder, scope, key)]
 
 
 def template(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
@@ -38,6 +38,11 @@ def template(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
         elif part.__class__ is Cons:
             pending += [part.cdr, part.car]
     return walk.whole(holder, boxes)
+
+
+def variable(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
+    """DEFVAR and its like: what is done for the first value."""
+    return walk.whole(holder, walk.among(after(holder.car, 2), scope))
 
 
 def inside(heads: int) -> Reader:
@@ -86,7 +91,7 @@ def local_functions(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
         name = hashable(each.car.car)
         if any(read.boxes for read in reads):
             parts = walk.steps(reads)
-            box = walk.box("function", [walk.head(each.car)], each.car, tag="local function")
+            box = walk.box("function", walk.head(each.car), each.car, tag="local function")
             box.parts, box.takes = parts, [known[name]]
             boxes.append(box)
         else:
@@ -140,7 +145,8 @@ def case(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
 def clauses(walk: Walk, holder: Cons, scope: Scope, heads: int) -> list[Box]:
     """A choice among clauses behind HEADS arguments; without any, the tests are forms."""
     box = walk.headed("branch", holder, heads, [])
-    box.parts += asked(walk.read(holder.car.cdr, scope)) if heads else []
+    head = after(holder.car, 1)
+    box.parts += asked(walk.read(head, scope)) if heads and head is not None else []
     matters = bool(box.parts)
     for clause in holders(after(holder.car, heads + 1)):
         if clause.car.__class__ is not Cons:
@@ -212,8 +218,9 @@ LAMBDA, LABELS, LOOP = named("LAMBDA", "LABELS", "LOOP")
 UNQUOTES = named("UNQUOTE", "UNQUOTE-SPLICING")
 READERS: dict[Value, Reader] = {
     **dict.fromkeys(named("QUOTE", "DECLARE", "GO", "DECLAIM"), nothing),
-    **dict.fromkeys(named("DEFUN", "DEFMACRO", "DEFSTRUCT", "DEFVAR", "DEFPARAMETER"), nothing),
-    **dict.fromkeys(named("DEFCONSTANT", "DEFSETF", "DEFTYPE", "IN-PACKAGE", "DEFPACKAGE"), nothing),
+    **dict.fromkeys(named("DEFUN", "DEFMACRO", "DEFSTRUCT", "DEFSETF", "DEFTYPE"), nothing),
+    **dict.fromkeys(named("IN-PACKAGE", "DEFPACKAGE"), nothing),
+    **dict.fromkeys(named("DEFVAR", "DEFPARAMETER", "DEFCONSTANT"), variable),
     **dict.fromkeys(named("FUNCTION"), function),
     **dict.fromkeys(named("QUASIQUOTE"), template),
     **dict.fromkeys(named("PROGN", "LOCALLY", "TAGBODY"), inside(0)),

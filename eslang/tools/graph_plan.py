@@ -21,7 +21,7 @@ from eslang.tools import graph_esl, graph_lisp, graph_scs
 from eslang.tools.graph_goals import goals_in, may_match
 from eslang.tools.graph_lisp import hashable, led
 from eslang.tools.graph_model import Box, Definition, Graph, Key
-from eslang.tools.graph_scs import modifiers_of, parts_of
+from eslang.tools.graph_scs import parts_of
 from eslang.tools.graph_text import form_text, name_text, text_of
 from eslang.tools.graph_walk import Scope, Walk, add, after, holders, numbered
 from eslang.tools.opening import bytes_of
@@ -55,6 +55,11 @@ class Found(NamedTuple):
         place = after(self.holder.car, 1)
         return None if place is None else place.car
 
+    def is_named(self) -> bool:
+        """Whether it has a name as definitions have."""
+        is_list = self.name.__class__ is Cons
+        return is_list if self.kind == "to achieve" else is_list or isinstance(self.name, Symbol)
+
 
 def read_plan(interp: Any, paths: list[str]) -> tuple[Graph | None, list[Diagnostic]]:
     """The structure of the program in the files at PATHS, if it could all be analysed; its errors."""
@@ -77,7 +82,9 @@ class Plan:
         for reading in readings:
             self.walk.spans = reading.spans
             reading.spans.default = reading.span
-            self.found += self.split(Cons(reading.form, None), reading.span.source.name, 0)
+            holder = Cons(reading.form, None)
+            reading.spans.note(holder, None, reading.span)
+            self.found += self.split(holder, reading.span.source.name, 0)
         for number, each in enumerate(self.found):
             if each.kind in ("function", "action", "step"):
                 self.walk.functions[hashable(each.name)] = Key("call", number)
@@ -85,7 +92,10 @@ class Plan:
     def split(self, holder: Cons, file: str, depth: int) -> Iterator[Found]:
         """The form in HOLDER, or the definitions and forms that it holds."""
         form = holder.car
-        operator = form.car if form.__class__ is Cons and isinstance(form.car, Symbol) else DECLARE
+        if form.__class__ is not Cons or not isinstance(form.car, Symbol):
+            yield Found("loaded", holder, self.walk.spans, file)
+            return
+        operator = form.car
         if operator in HOLDING:
             for each in holders(after(form, HOLDING[operator] + 1)):
                 yield from self.split(each, file, depth)
@@ -96,7 +106,8 @@ class Plan:
         if expansion is not None:
             yield from self.split(Cons(expansion, None), file, depth + 1)
         else:
-            yield Found(DEFINING.get(operator, "loaded"), holder, self.walk.spans, file)
+            found = Found(DEFINING.get(operator, "loaded"), holder, self.walk.spans, file)
+            yield found if found.is_named() else found._replace(kind="loaded")
 
     def definitions(self) -> list[Definition]:
         """All definitions, in the order of the text; what is done in loading a file stands behind them."""
@@ -123,12 +134,12 @@ class Plan:
             return self.goal(number, found)
         name = name_text(found.name) if found.name.__class__ is Cons else found.name.name.lower()
         walk, form, scope = self.walk, found.holder.car, Scope(number)
-        head = form_text(walk.spans, found.name) if found.kind == "test" else walk.head(form.cdr)
-        box = walk.box("definition", [head], form, tag=found.kind, takes=[Key("call", number)])
+        head = [text_of(walk.spans, form.cdr)] if found.kind == "test" else walk.head(form.cdr)
+        box = walk.box("definition", head, form, tag=found.kind, takes=[Key("call", number)])
         rest = after(form, 2 if found.kind == "test" else 3)
         rest, documentation = self.documented(rest)
         if found.kind == "step":
-            modifiers, rest = modifiers_of(walk, rest)
+            modifiers, rest = walk.options(rest)
             box.lines += modifiers
             box.parts = parts_of(walk, "ordered", rest, scope)
         else:
@@ -156,7 +167,7 @@ class Plan:
             if method.car.__class__ is Cons:
                 steps = walk.sequence(method.car.cdr, Scope(number))
                 box.parts.append(led(steps, text_of(walk.spans, method.car)))
-        name = pattern.car if pattern.__class__ is Cons else pattern
+        name = pattern.car
         return Definition(name.name.lower() if isinstance(name, Symbol) else name_text(name), box)
 
     def resolve(self, defined: list[Definition]) -> None:

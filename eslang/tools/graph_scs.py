@@ -7,6 +7,8 @@ from typing import NamedTuple
 from eslang.base.lists import Cons
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.compile.registry import SCS
+from eslang.tools.graph_esl import achieving, acting, want
+from eslang.tools.graph_goals import goals_in
 from eslang.tools.graph_lisp import led
 from eslang.tools.graph_model import Box
 from eslang.tools.graph_text import text_of
@@ -26,21 +28,12 @@ def reading(construct: Construct) -> Reader:
 
     def read(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
         box = walk.headed(construct.kind, holder, construct.heads, [])
-        modifiers, rest = modifiers_of(walk, after(holder.car, construct.heads + 1))
+        modifiers, rest = walk.options(after(holder.car, construct.heads + 1))
         box.lines += modifiers
         box.parts = parts_of(walk, construct.parts, rest, scope)
         return [box]
 
     return read
-
-
-def modifiers_of(walk: Walk, rest: Value) -> tuple[list[str], Value]:
-    """The modifiers at the head of REST, in words, and what is behind them."""
-    lines = []
-    while rest.__class__ is Cons and isinstance(rest.car, Keyword) and rest.cdr.__class__ is Cons:
-        lines.append(f":{rest.car.name.lower()} {text_of(walk.spans, rest.cdr)}")
-        rest = rest.cdr.cdr
-    return lines, rest
 
 
 def parts_of(walk: Walk, how: str, rest: Value, scope: Scope) -> list[Box]:
@@ -63,6 +56,23 @@ def parts_of(walk: Walk, how: str, rest: Value, scope: Scope) -> list[Box]:
     return parts
 
 
+def giving(walk: Walk, holder: Cons, scope: Scope) -> list[Box]:
+    """ADD-GOAL: lines to the methods of the goal, or the step that sees to it."""
+    box = walk.headed("goal", holder, 1, [])
+    goal = after(holder.car, 1)
+    rest = after(goal, 1)
+    while rest.__class__ is Cons and rest.cdr.__class__ is Cons:
+        if rest.car is BY:
+            box.parts.append(led(walk.one(rest.cdr, scope), "by"))
+        else:
+            box.lines.append(f"{text_of(walk.spans, rest)} {text_of(walk.spans, rest.cdr)}")
+        rest = rest.cdr.cdr
+    for each in goals_in(goal.car) if goal is not None and not box.parts else ():
+        if each.cdr.__class__ is Cons:
+            want(walk, box, each.cdr.car)
+    return [box]
+
+
 def branch(walk: Walk, scope: Scope) -> Scope:
     """SCOPE in a task of its own."""
     return scope._replace(task=walk.new_task())
@@ -73,10 +83,17 @@ def named(*names: str) -> list[Symbol]:
     return [Symbol.intern(name, SCS) for name in names]
 
 
+BY = Keyword("BY")
 READERS: dict[Value, Reader] = {
     **dict.fromkeys(named("DO", "DO*"), reading(Construct("sequence", "ordered"))),
     **dict.fromkeys(named("ATOMIC"), reading(Construct("sequence", "ordered"))),
     **dict.fromkeys(named("REPEAT", "REPEAT*"), reading(Construct("loop", "ordered"))),
+    **dict.fromkeys(named("PURSUE-GOALS"), reading(Construct("loop", "ordered"))),
+    **dict.fromkeys(named("ADD-GOAL"), giving),
+    **dict.fromkeys(named("MAINTAIN"), achieving),
+    **dict.fromkeys(named("DROP-GOAL"), acting("goal")),
+    **dict.fromkeys(named("SUSPEND"), acting("wait")),
+    **dict.fromkeys(named("RESUME"), acting("signal")),
     **dict.fromkeys(named("WITH-CYCLE"), reading(Construct("loop", "ordered", 1))),
     **dict.fromkeys(named("DO-ALL", "DO*-ALL"), reading(Construct("parallel", "together"))),
     **dict.fromkeys(named("DO-ANY", "DO*-ANY"), reading(Construct("choice", "any"))),

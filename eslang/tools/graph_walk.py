@@ -15,11 +15,12 @@ from eslang.base.control import Failed
 from eslang.base.image import Image
 from eslang.base.lists import Cons
 from eslang.base.spans import Spans
-from eslang.base.symbols import Symbol, Value
+from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.compile.registry import CL, ESL, SCS
 from eslang.compile.signatures import read_signature
+from eslang.tools.columns import width
 from eslang.tools.graph_model import Box, Key
-from eslang.tools.graph_text import LONGEST, form_text, text_of
+from eslang.tools.graph_text import LONGEST, WIDEST, form_text, text_of
 
 LANGUAGES = (CL, ESL, SCS)
 MOST_LINES = 4  # of plain forms in one box
@@ -200,15 +201,22 @@ class Walk:
     def headed(self, kind: str, holder: Cons, heads: int, parts: list[Box]) -> Box:
         """A box that shows the operator of the form in HOLDER, and its first HEADS arguments."""
         shown = [text_of(self.spans, each) for each in list(holders(holder.car))[: heads + 1]]
-        lines = [" ".join(shown)] if sum(map(len, shown)) + heads <= 44 else shown
-        return self.box(kind, lines, holder.car, parts=parts)
+        return self.box(kind, joined(shown), holder.car, parts=parts)
 
-    def head(self, holder: Cons) -> str:
+    def options(self, rest: Value) -> tuple[list[str], Value]:
+        """The keywords at the head of REST with what follows each, and what is behind them."""
+        lines = []
+        while rest.__class__ is Cons and isinstance(rest.car, Keyword) and rest.cdr.__class__ is Cons:
+            lines.append(f":{rest.car.name.lower()} {text_of(self.spans, rest.cdr)}")
+            rest = rest.cdr.cdr
+        return lines, rest
+
+    def head(self, holder: Cons) -> list[str]:
         """The name in HOLDER, and the arguments behind it, if it takes any."""
         name, arguments = text_of(self.spans, holder), after(holder, 1)
         if arguments is None or arguments.car is None:
-            return name
-        return f"{name} {text_of(self.spans, arguments)}"
+            return [name]
+        return joined([name, text_of(self.spans, arguments)])
 
     def heads_of(self, operator: Symbol) -> int | None:
         """How many arguments of OPERATOR, a macro of ours, stand before its body; None: it has none."""
@@ -229,6 +237,12 @@ class Walk:
             return None
 
 
+def joined(words: list[str]) -> list[str]:
+    """WORDS on one line, if it is not too long; else each on its own."""
+    line = " ".join(words)
+    return [line] if width(line) <= WIDEST else words
+
+
 def holders(rest: Value) -> Iterable[Cons]:
     """The conses of REST, as far as it is a list."""
     while rest.__class__ is Cons:
@@ -245,8 +259,9 @@ def after(form: Value, count: int) -> Value:
 
 def numbered(boxes: list[Box]) -> list[Box]:
     """BOXES, which are done in order: where there are several, their lines say so."""
-    if len(boxes) > 1:
-        for number, box in enumerate(boxes, 1):
+    steps = [box for box in boxes if box.kind != "function"]
+    if len(steps) > 1:
+        for number, box in enumerate(steps, 1):
             box.edge = str(number)
     return boxes
 

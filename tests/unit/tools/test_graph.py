@@ -137,6 +137,44 @@ def test_a_guardian_an_or_parallel_and_locks() -> None:
     ]
 
 
+def test_goals_that_are_given_and_maintained_lead_to_their_methods() -> None:
+    text = """(to-achieve (lamp ?where ?state) (t (assert '(lamp #?where #?state))))
+      (defvar *light* (scs:add-goal (achieve (lamp hall :on)) :utility 3))
+      (defun f () (scs:maintain (lamp hall :on)) (scs:add-goal (maintain (lamp hall :on)) :retries 2 :by (f))
+        (scs:pursue-goals :until (oddp 1)))"""
+    assert outline(text)[1:] == [
+        "  t > (assert '(lamp #?where #?state))",
+        "function f",
+        "  1 > (scs:maintain (lamp hall :on))",
+        "  2 > scs:add-goal (maintain (lamp hall :on))",
+        "    :retries 2",
+        "    by > (f)",
+        "  3 > scs:pursue-goals",
+        "    :until (oddp 1)",
+        "when loaded plan.esl",
+        "  (defvar *light* (scs:add-goal (achieve (lamp …",
+    ]
+    assert [source for kind, source, _ in joined(drawn(text)) if kind == "achieve"] == [
+        "(scs:maintain (lamp hall :on))",
+        "(defvar *light* (scs:add-goal (achieve (lamp …",
+    ]
+
+
+def test_options_of_a_construct_stand_in_its_box() -> None:
+    text = """(define-resource wheels :capacity 2)
+      (defun f () (with-resource (wheels 1) :priority 10 (print 1)))
+      (defun g () (with-query-bindings '(at ?x) :inherit-bindings (next-bindings)))"""
+    assert outline(text) == [
+        "function f",
+        "  with-resource (wheels 1)",
+        "    :priority 10",
+        "    (print 1)",
+        "function g",
+        "  with-query-bindings '(at ?x) :inherit-bindings",
+        "    (next-bindings)",
+    ]
+
+
 def test_goals_lead_to_the_methods_that_may_apply() -> None:
     text = """(to-achieve (power ?device :on) (t (print 1)))
       (to-achieve (power lamp ?state) ((oddp 1) (sleep 1) (print 2)) (t (fail :no)))

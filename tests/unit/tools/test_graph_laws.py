@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 from itertools import pairwise
+from random import Random
 from typing import NamedTuple
 
 import pytest
@@ -13,10 +14,13 @@ from hypothesis import strategies as st
 from unit.tools.command import ROOT, call
 from unit.tools.graphs import NEST, drawn
 
+from eslang.base.spans import Source
+from eslang.interpreter import Interpreter
 from eslang.tools.graph_layout import Layout, Point, Spot, layout
 from eslang.tools.graph_looks import LOOKS
 from eslang.tools.graph_mermaid import mermaid
 from eslang.tools.graph_model import Box, Definition, Graph, Key
+from eslang.tools.graph_plan import DEFINING, READERS, Plan
 from eslang.tools.graph_svg import svg
 
 PLANS = sorted((ROOT / "plans").glob("*/*.esl"))
@@ -27,6 +31,25 @@ NODE = re.compile(
 )
 EDGE = re.compile(r'  (\w+) (?:---|-\.-|-->|-\.->)(?:\|"(?:[\w (),.:?!=/+\'-]|#\d+;)*"\|)? (\w+)')
 CLASS = re.compile(r"  classDef \w+ fill:#\w{6},stroke:#\w{6},color:#\w{6}")
+
+OPERATORS = [f"{each.package}::{each.name}" for each in (*READERS, *DEFINING)]
+ATOMS = [
+    "x",
+    "nil",
+    "t",
+    ":k",
+    "3",
+    '"s"',
+    "#?v",
+    "'q",
+    "`(a ,(f))",
+    ":retries",
+    ":while",
+    "#'f",
+    "f",
+    "(f)",
+    "((f) x)",
+]
 
 texts = st.text(st.characters(codec="utf-8"), min_size=1, max_size=30).map(lambda text: text or "x")
 keys = st.builds(Key, st.sampled_from(["call", "achieve", "event", "end"]), st.integers(0, 5))
@@ -156,6 +179,27 @@ def test_a_flowchart_names_only_its_nodes_and_no_label_ends_it(graph: Graph) -> 
 @given(graphs)
 def test_a_picture_is_xml_whatever_stands_in_it(graph: Graph) -> None:
     check_svg(graph)
+
+
+@pytest.mark.slow
+@given(st.randoms(use_true_random=False))
+def test_forms_of_any_shape_can_be_drawn(chance: Random) -> None:
+    with Interpreter(clock="virtual") as interp, interp.at_work():
+        text = "\n".join(any_form(chance, 4) for _ in range(20))
+        readings = list(interp.readings(Source("any", text)))
+        graph = Graph("any", Plan(interp.image, readings).definitions())
+    check_layout(graph)
+    check_mermaid(graph)
+    check_svg(graph)
+
+
+def any_form(chance: Random, depth: int) -> str:
+    """A form of any shape, whether it could be run or not."""
+    if depth == 0 or chance.random() < 0.25:
+        return chance.choice(ATOMS)
+    inner = [any_form(chance, depth - 1) for _ in range(chance.randrange(5))]
+    end = " . x)" if inner and chance.random() < 0.05 else ")"
+    return "(" + " ".join([chance.choice(OPERATORS), *inner]) + end
 
 
 def test_the_same_plan_is_drawn_the_same_byte_for_byte() -> None:
