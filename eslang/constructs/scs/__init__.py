@@ -1,6 +1,8 @@
 """SCS, Structured Circuit Semantics.
 
-Its steps, choices and energizing conditions (SCS, Appendix C) will stand here.
+In reading order: asking.py (conditions), stepping.py (what all constructs share),
+steps.py, actions.py, parallel.py, choice.py, clauses.py, learning.py, threads.py
+(SCS, Appendix C, §3); goals.py and pursuing.py (§2).
 
 This room must not know how ESL's own constructs are made: both stand on the
 same machines.
