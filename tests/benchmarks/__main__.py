@@ -8,7 +8,18 @@ from __future__ import annotations
 import platform
 import sys
 
-from tests.benchmarks import compute, crowds, facts, locks, memory, reading, recovery, starting, tasks
+from tests.benchmarks import (
+    circuits,
+    compute,
+    crowds,
+    facts,
+    locks,
+    memory,
+    reading,
+    recovery,
+    starting,
+    tasks,
+)
 from tests.benchmarks.measure import Row, measure
 
 ROOMS = {
@@ -19,6 +30,7 @@ ROOMS = {
     "locks": locks,
     "memory": memory,
     "facts": facts,
+    "circuits": circuits,
     "starting": starting,
     "reading": reading,
 }
