@@ -44,6 +44,7 @@ class Level:
         "outer",
         "polls",
         "task",
+        "turns",
     )
 
     def __init__(self, task: Task, logical: Logical, holds: Callable[[], bool]) -> None:
@@ -55,6 +56,7 @@ class Level:
         self.polls = False  # it is asked after every action
         self.is_stale = False  # what it rests on has changed
         self.is_branch: bool = outer is not None and outer.is_branch  # others take turns with it
+        self.turns: Callable[[Any], bool] = take_turns if outer is None else outer.turns  # in that way
         self.live = True
         self.closed = False  # it is being left: nothing inside begins another action
         self.extent = Extent(task.dynamic)
@@ -189,7 +191,7 @@ def end_of_action() -> None:
     if level is None or dynamic.masked:
         return
     ask_all(level, polled=True)
-    if level.is_branch and take_turns(session):
+    if level.is_branch and level.turns(session):
         ask_all(level, polled=True)  # others have acted
 
 

@@ -29,7 +29,7 @@ from eslang.runtime.agenda import (
     goal_of,
 )
 from eslang.runtime.attempts import attempt
-from eslang.runtime.circuits import Level, Stage, begin_action, end_of_action
+from eslang.runtime.circuits import Level, Stage, begin_action, end_of_action, take_turns
 from eslang.runtime.deadlock import DEADLOCK
 from eslang.runtime.events import Wait
 from eslang.runtime.polls import CONDITION
@@ -56,14 +56,15 @@ class Pursuit:
         self.members: dict[Task, Goal] = {}  # the tasks at work, and what for
         self.held: dict[Task, Wait] = {}  # those that have done an action, and are not to go on yet
         self.resting: dict[Wait, Goal] = {}  # the waits of those that have failed
+        self.doomed: dict[Goal, Failure] = {}  # those that are being left because of that
         self.given_up: list[tuple[Goal, Failure]] = []
         self.is_fresh = True  # there may be goals that nobody has begun
         self.is_ranked = False  # one of the goals has a utility
         self.is_noted = False  # something was changed since it was looked after
         self.wait: Wait | None = None
         self.hear_no_more: Callable[[], None] | None = None
-        self.level = Level(self.task, self.task.dynamic.logical, self.give_way)
-        self.level.is_branch = True
+        self.level = Level(self.task, self.task.dynamic.logical, lambda: True)
+        self.level.is_branch, self.level.turns = True, self.take_turns
 
     # --- who pursues -------------------------------------------------------------
 
@@ -88,18 +89,18 @@ class Pursuit:
             self.level.end()
             dynamic.logical = outer
             self.agenda.pursuit = None
+            for wait in self.held.values():
+                self.scheduler.end_wait(wait, None)
             self.scheduler.lives.abort_all(self.task, list(self.members), "net")
 
     def is_over(self) -> bool:
         """True if no goal can be brought nearer: each is inactive, or blocked, and stays so."""
         if self.is_fresh or self.waits:
             return False
-        for goal in self.members.values():
-            if goal.is_leaving or goal.status not in (INACTIVE, BLOCKED):
-                return False
-            if goal.status is INACTIVE and not goal.means.holds():
-                return False
-        return True
+        goals = list(self.members.values())
+        if any(goal.is_leaving or goal.status not in (INACTIVE, BLOCKED) for goal in goals):
+            return False
+        return all(goal.means.holds() for goal in goals if goal.status is INACTIVE)
 
     def begin_fresh(self) -> None:
         """Let a task begin for each goal that has none."""
@@ -108,7 +109,7 @@ class Pursuit:
         self.is_fresh = False
         goals = self.agenda.goals()
         at_work = list(self.members.values())
-        self.is_ranked = self.level.polls = any(goal.utility is not None for goal in goals)
+        self.is_ranked = any(goal.utility is not None for goal in goals)
         begun = []
         for number, goal in enumerate(goals, 1):
             if goal not in at_work and not any(self.is_twin(goal, other) for other in at_work):
@@ -136,7 +137,9 @@ class Pursuit:
     def left(self, task: Task) -> None:
         """TASK has ended. What is not over by then was dropped, unless the whole is being left."""
         goal = self.members.pop(task)
-        if self.agenda.pursuit is self or goal.is_leaving:
+        if goal in self.doomed:
+            self.give_up(goal, self.doomed[goal])
+        elif self.agenda.pursuit is self or goal.is_leaving:
             self.agenda.end(goal, DROPPED)
         elif not goal.is_over:
             goal.status = PENDING
@@ -159,7 +162,7 @@ class Pursuit:
         """Something may be to be done: GOAL has come, or something was changed."""
         self.is_noted = True
         if goal is not None:
-            self.is_fresh = self.level.is_stale = True
+            self.is_fresh = True
         if self.wait is not None:
             self.scheduler.end_wait(self.wait, None)
 
@@ -182,24 +185,26 @@ class Pursuit:
 
     def break_deadlock(self, failure: Failure) -> None:
         """Of the goals that wait for what cannot come, give up the one that was given last."""
-        stuck = [task for task, goal in self.members.items() if goal.status is ACTIVE]
+        stuck = [task for task, goal in self.members.items() if goal.status is ACTIVE and not goal.is_leaving]
         if failure.cause is not DEADLOCK or not stuck:
             from eslang.runtime.failures import signal
 
             signal(failure, continuable=False)
-        self.give_up(self.members[stuck[-1]], failure)
-        self.scheduler.lives.abort_all(self.task, [stuck[-1]], "goal")
+        self.doomed[self.members[stuck[-1]]] = failure
+        self.agenda.drop(self.members[stuck[-1]])
 
-    def give_way(self) -> bool:
-        """An action of a goal has ended: hold its task if others may be to go on. The level lasts always."""
+    def take_turns(self, session: Any) -> bool:
+        """An action of a goal has ended: let any go on, or those that are to. True if others went on."""
         task = self.scheduler.at_work()
-        if task is not self.task and (self.is_ranked or self.is_fresh):
-            wait = self.held[task] = Wait(task, "turn", "its turn")
-            self.take_note()
-            try:
-                self.scheduler.wait(wait)
-            finally:
-                self.held.pop(task, None)
+        is_ours = self.agenda.pursuit is self and task is not self.task
+        if not (is_ours and (self.is_ranked or self.is_fresh)):
+            return take_turns(session)
+        wait = self.held[task] = Wait(task, "turn", "its turn")
+        self.take_note()
+        try:
+            self.scheduler.wait(wait)
+        finally:
+            self.held.pop(task, None)
         return True
 
     def is_somebody_ready(self) -> bool:
@@ -229,7 +234,8 @@ class Pursuit:
         """Pursue GOAL, in a task of its own, until it is over."""
         task, dynamic = self.scheduler.at_work(), running.session.dynamic
         dynamic.logical = dynamic.logical.entered(stage)
-        self.give_way()
+        if self.is_ranked:
+            self.take_turns(self.session)
         while not goal.is_over:
             begun = self.session.clock.now()
             failure = attempt(task, lambda: self.bring_about(goal))

@@ -275,6 +275,8 @@ def make_goal(
 
 def _under(bindings: dict[Symbol, Value], body: Callable[[], Value]) -> Value:
     """What BODY gives where these BINDINGS of logic variables are in force."""
+    if not bindings:
+        return body()
     dynamic = running.session.dynamic
     outer, dynamic.logical = dynamic.logical, dynamic.logical.within(bindings)
     try:
