@@ -35,7 +35,9 @@ def graph(chosen: Chosen) -> int:
     if errors:
         sys.stderr.write(counted(len(errors), "error") + ("" if found else ", nothing is drawn") + "\n")
     if found is not None:
-        text = drawn(picked(found, chosen.all("of")), is_svg=chosen.has("svg") or path.endswith(".svg"))
+        text = drawn(
+            picked(found, chosen.all("of")), is_svg=chosen.has("svg") or path.lower().endswith(".svg")
+        )
         write(text, path)
     return WRONG if errors else 0
 

@@ -11,6 +11,7 @@ from eslang.tools.tokens import BLANK, tokens
 
 WIDEST = 46  # columns of a line in a box
 LONGEST = 400  # characters of a title
+LARGEST = 4000  # characters of the text of one form that are looked at, where it is one line
 MANY = 40  # lines of the text of one form that are looked at
 PRINTED = WriteSettings(case="DOWNCASE", length=12, level=5)
 
@@ -57,7 +58,8 @@ def written(span: Span, most: int) -> str:
 def text_at(span: Span) -> str:
     """The text of SPAN, if it is very long only its first lines."""
     if span.line == span.end_line:
-        return span.source.line(span.line)[span.column - 1 : span.end_column - 1]
+        end = min(span.end_column - 1, span.column + LARGEST)
+        return span.source.line(span.line)[span.column - 1 : end]
     last = min(span.end_line, span.line + MANY)
     lines = [span.source.line(number) for number in range(span.line, last + 1)]
     if last == span.end_line:
