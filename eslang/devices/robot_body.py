@@ -23,8 +23,8 @@ FARTHEST = 4.0  # metres that the range sensors see
 CONE = (-15.0, 0.0, 15.0)  # in which they do: the nearest thing counts
 FAR_ENOUGH, STRAIGHT, CENTRED = 0.5, 15.0, 0.15  # how near, straight and central a grab must be
 STUCK_AFTER = 1.0  # seconds in which the wheels turn in vain
-DRAIN = 0.1  # percent of the battery a second
-CHARGE = 5.0  # the same when it is charged
+DRAIN = 0.25  # percent of the battery that a metre takes
+CHARGE = 5.0  # percent a second that it takes up
 DRIVING, SPINNING, STILL = Keyword("DRIVING"), Keyword("SPINNING"), Keyword("STILL")
 OK, STUCK, BLIND = Keyword("OK"), Keyword("STUCK"), Keyword("BLIND")
 STATES = (OK, STUCK, BLIND)
@@ -108,7 +108,6 @@ class Body:
 
     def roll(self, motion: Motion) -> None:
         """Let the wheels turn for one tick."""
-        self.battery = max(0.0, self.battery - DRAIN * TICK)
         far = abs(motion.rate) * TICK
         if motion.left is not None:
             far = min(far, motion.left)
@@ -139,6 +138,7 @@ class Body:
             motion.end("bumped", self.bumped)
             return
         self.x, self.y = x, y
+        self.battery = max(0.0, self.battery - DRAIN * abs(far))
         self.heading = turned(self.heading + self.chance.gauss(0.0, 10 * self.noise))
 
     # --- time --------------------------------------------------------------------

@@ -101,14 +101,13 @@ def test_a_robot_that_was_not_placed_does_nothing() -> None:
     assert [cause_of("(robot-drive)"), cause_of("(robot-sense :x)")] == [":NO-ROBOT"] * 2
 
 
-@pytest.mark.slow
-def test_the_battery_runs_down_and_can_be_charged() -> None:
-    text = "(place-robot 0 0 0) (place-charger 0 0) (robot-turn 48000)"
-    assert cause_of(f"{text} (robot-turn 48000)") == ":BATTERY-FLAT"
-    assert (
-        shows(f"{text} (print (robot-sense :battery)) (robot-charge) (print (robot-sense :battery))") == "100"
-    )
-    assert cause_of(f"{text} (place-charger 2 2) (robot-charge)") == ":NO-CHARGER"
+def test_driving_empties_the_battery_and_a_charger_fills_it() -> None:
+    text = "(place-robot 0 0 0) (robot-advance 390 100)"
+    assert shows(f"{text} (robot-turn 360) (print (robot-sense :battery))") == "2"
+    assert cause_of(f"{text} (robot-advance 20)") == ":BATTERY-FLAT"
+    assert cause_of(f"{text} (robot-charge)") == ":NO-CHARGER"
+    text += " (place-charger 390 0) (robot-charge) (print (list (robot-sense :battery)"
+    assert shows(f"{text} (round (get-internal-real-time) 1000000)))") == "(100 23)"
 
 
 # --- the bar -------------------------------------------------------------------------
