@@ -82,6 +82,11 @@ class Goal(Event):
     def __str__(self) -> str:
         return shown(self.spec)
 
+    def name_of_task(self) -> str:
+        """What a task is called that pursues it, such as achieve-at."""
+        operators = [self.spec.car, getattr(self.condition, "car", None)]
+        return "-".join([each.name.lower() for each in operators if isinstance(each, Symbol)])
+
     @property
     def is_over(self) -> bool:
         """True if nothing more will come of it."""
@@ -99,20 +104,29 @@ class Goal(Event):
 class Agenda:
     """The goals of one agent that are not over, in the order in which they were given."""
 
-    def __init__(self, session: Any, is_same: Callable[[Value, Value], bool]) -> None:
+    def __init__(
+        self, session: Any, is_same: Callable[[Value, Value], bool], sketch: Callable[[Value], Value]
+    ) -> None:
         self.scheduler = session.scheduler
         self.is_same = is_same  # of two conditions
+        self.sketch = sketch  # of a condition: those that are the same have the same
         self.kept: dict[Goal, None] = {}
+        self.sketched: dict[Value, list[Goal]] = {}  # the same goals by that
         self.pursuit: Pursuit | None = None  # whoever sees to them now
 
     def goals(self) -> list[Goal]:
         """Those that are to be pursued."""
         return [goal for goal in self.kept if not goal.is_leaving]
 
+    def are_same(self, one: Goal, other: Goal) -> bool:
+        """True if two goals differ at most in the names of their logic variables."""
+        return one.is_maintained is other.is_maintained and self.is_same(one.condition, other.condition)
+
     def find(self, is_maintained: bool, condition: Value) -> Goal | None:
         """The goal for CONDITION, if there is one."""
-        for goal in self.goals():
-            if goal.is_maintained is is_maintained and self.is_same(goal.condition, condition):
+        for goal in self.sketched.get(self.sketch(condition), ()):
+            is_alike = goal.is_maintained is is_maintained and not goal.is_leaving
+            if is_alike and self.is_same(goal.condition, condition):
                 return goal
         return None
 
@@ -121,6 +135,7 @@ class Agenda:
         known = self.find(goal.is_maintained, goal.condition)
         if known is None:
             self.kept[goal] = None
+            self.sketched.setdefault(self.sketch(goal.condition), []).append(goal)
             self.announce("added", goal)
         elif goal.utility is not None:
             known.utility = goal.utility
@@ -142,8 +157,13 @@ class Agenda:
 
     def end(self, goal: Goal, status: Keyword, failure: Failure | None = None) -> None:
         """GOAL is over."""
-        if self.kept.pop(goal, goal) is goal:
+        if goal not in self.kept:
             return
+        del self.kept[goal]
+        sketch = self.sketch(goal.condition)
+        self.sketched[sketch].remove(goal)
+        if not self.sketched[sketch]:
+            del self.sketched[sketch]
         goal.status = status
         self.announce(status.name.lower(), goal, failure)
         if goal.waits:

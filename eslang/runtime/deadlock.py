@@ -120,6 +120,8 @@ def phrase(wait: Wait) -> str:
             return f"the condition {shown(of)}"
         case "resource":
             return f"{of[1]} of the resource {shown(of[0])}"
+        case "retry":
+            return f"facts that change what can be done to {shown(of)[1:-1]}"
         case "achievement" | "recovery":
             return f"the {wait.kind} of {shown(of)}"
     return f"{of}" if of is not None else wait.kind

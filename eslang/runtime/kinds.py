@@ -63,7 +63,7 @@ TABLE = (
         (
             Part("about", "Task", "the new task"),
             Part("parent", "Task | None", "the task that it belongs to; none for those of the run"),
-            Part("role", "str", "`main`, `member` (of a net or OR-PARALLEL), `guardian`, `spawned`"),
+            Part("role", "str", "`main`, `member` (of a net or OR-PARALLEL), `guardian`, `goal`, `spawned`"),
             Part("daemon", "bool", "the run, or its owner, does not wait for it"),
         ),
     ),

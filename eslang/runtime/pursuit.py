@@ -16,6 +16,7 @@ from eslang.base.failure import ERROR, Failure
 from eslang.base.hints import Any, Callable
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, T, Value
+from eslang.runtime import failures
 from eslang.runtime.agenda import (
     ACHIEVED,
     ACTIVE,
@@ -28,8 +29,9 @@ from eslang.runtime.agenda import (
     Goal,
     goal_of,
 )
+from eslang.runtime.arenas import take_turns
 from eslang.runtime.attempts import attempt
-from eslang.runtime.circuits import Level, Stage, begin_action, end_of_action, take_turns
+from eslang.runtime.circuits import Level, Stage, begin_action, end_of_action
 from eslang.runtime.deadlock import DEADLOCK
 from eslang.runtime.events import Wait
 from eslang.runtime.polls import CONDITION
@@ -64,7 +66,7 @@ class Pursuit:
         self.wait: Wait | None = None
         self.hear_no_more: Callable[[], None] | None = None
         self.level = Level(self.task, self.task.dynamic.logical, lambda: True)
-        self.level.is_branch, self.level.turns = True, self.take_turns
+        self.level.open(self.take_turns)
 
     # --- who pursues -------------------------------------------------------------
 
@@ -108,27 +110,24 @@ class Pursuit:
             return
         self.is_fresh = False
         goals = self.agenda.goals()
-        at_work = list(self.members.values())
+        at_work = set(self.members.values())
+        leaving = [goal for goal in at_work if goal.is_leaving]
         self.is_ranked = any(goal.utility is not None for goal in goals)
         begun = []
         for number, goal in enumerate(goals, 1):
-            if goal not in at_work and not any(self.is_twin(goal, other) for other in at_work):
+            if goal not in at_work and not any(self.agenda.are_same(goal, other) for other in leaving):
                 begun.append(self.begin(goal, number))
         self.session.chance.shuffle(begun)
         for task in begun:
             self.scheduler.lives.start(task, "goal")
 
-    def is_twin(self, goal: Goal, other: Goal) -> bool:
-        """True if OTHER, whose attempt is being left, was for the same as GOAL."""
-        return other.is_maintained is goal.is_maintained and self.agenda.is_same(
-            other.condition, goal.condition
-        )
-
     def begin(self, goal: Goal, number: int) -> Task:
         """A task that pursues GOAL."""
         stage = Stage(self.stage.operator, self.stage.around, number)
         stage.condition = [goal.spec]
-        task: Task = self.scheduler.lives.create("goal", lambda: self.live(goal, stage), self.task, self.left)
+        task: Task = self.scheduler.lives.create(
+            goal.name_of_task(), lambda: self.live(goal, stage), self.task, self.left
+        )
         task.seen = True
         goal.status = ACTIVE
         self.members[task] = goal
@@ -143,8 +142,7 @@ class Pursuit:
             self.agenda.end(goal, DROPPED)
         elif not goal.is_over:
             goal.status = PENDING
-        self.is_fresh = True  # a twin of it may wait for its end
-        self.take_note()
+        self.take_note(goal if goal.is_leaving else None)  # the same one, given again, may wait for that
 
     def give_up(self, goal: Goal, failure: Failure) -> None:
         """GOAL is impossible, as FAILURE shows."""
@@ -159,7 +157,7 @@ class Pursuit:
     # --- turns -------------------------------------------------------------------
 
     def take_note(self, goal: Goal | None = None) -> None:
-        """Something may be to be done: GOAL has come, or something was changed."""
+        """Something may be to be done: GOAL has come, or gone, or something was changed."""
         self.is_noted = True
         if goal is not None:
             self.is_fresh = True
@@ -170,15 +168,14 @@ class Pursuit:
         """Wait until something is to be done; while somebody is held, until nobody else goes on."""
         if self.is_noted:
             return
-        wanted = "goals to pursue"
+        wait = Wait(self.task, "goals", "goals to pursue")
         if self.held:
-            wait = Wait(self.task, CONDITION, wanted, (), lambda: None if self.is_somebody_ready() else T)
-        else:
-            wait = Wait(self.task, "goals", wanted)
+            said = self.stage.operator
+            wait = Wait(self.task, CONDITION, said, (), lambda: None if self.is_somebody_ready() else T)
         self.wait = wait
         failure = attempt(self.task, lambda: self.scheduler.wait(wait))
         self.wait = None
-        if self.held:
+        if wait.kind == CONDITION:
             self.scheduler.polls.forget(wait)
         if failure is not None:
             self.break_deadlock(failure)
@@ -186,12 +183,11 @@ class Pursuit:
     def break_deadlock(self, failure: Failure) -> None:
         """Of the goals that wait for what cannot come, give up the one that was given last."""
         stuck = [task for task, goal in self.members.items() if goal.status is ACTIVE and not goal.is_leaving]
-        if failure.cause is not DEADLOCK or not stuck:
-            from eslang.runtime.failures import signal
-
-            signal(failure, continuable=False)
-        self.doomed[self.members[stuck[-1]]] = failure
-        self.agenda.drop(self.members[stuck[-1]])
+        if failure.cause is DEADLOCK and stuck:
+            self.doomed[self.members[stuck[-1]]] = failure
+            self.agenda.drop(self.members[stuck[-1]])
+        elif failure.cause is not DEADLOCK or self.waits:
+            failures.signal(failure, continuable=False)
 
     def take_turns(self, session: Any) -> bool:
         """An action of a goal has ended: let any go on, or those that are to. True if others went on."""

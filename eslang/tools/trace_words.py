@@ -18,7 +18,7 @@ SUBJECTS = {
     "deadlock": "to",
     "resource": "of",
 }
-ROLES = {"member": "", "main": "", "guardian": ", a guardian", "spawned": ", spawned"}
+ROLES = {"member": "", "main": "", "guardian": ", a guardian", "goal": ", for a goal", "spawned": ", spawned"}
 WHY_ABORTED = {
     "net": "the net is decided",
     "guardian": "what it guarded is over",
@@ -109,6 +109,10 @@ def waited_for(told: dict[str, Any]) -> str:
         return f"{seconds(of)} to pass"
     if on == "outside":
         return f"{value_text(of)}, outside"
+    if on in ("goals", "turn"):
+        return str(of)
+    if on == "retry":
+        return f"news, to {value_text(of)[1:-1]}"
     if on in ("achievement", "recovery"):
         return f"the {on} of {value_text(of)}"
     return on if of is None else f"{on} {value_text(of)}"

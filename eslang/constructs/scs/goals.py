@@ -33,6 +33,7 @@ from eslang.constructs.queries import LOGICAL_BINDING, in_force
 from eslang.constructs.scs.asking import Asker
 from eslang.constructs.scs.stepping import read_steps, steps_form
 from eslang.constructs.shapes import refuse
+from eslang.facts.unify import is_variable
 
 if TYPE_CHECKING:
     from eslang.runtime.agenda import Agenda, Goal
@@ -331,13 +332,23 @@ def as_real(value: Value) -> Value:
     raise type_error(value, "REAL")
 
 
+def sketch_of(condition: Value) -> tuple[Value, ...]:
+    """The names and numbers in CONDITION, without what is inside lists, and without variables."""
+    found = []
+    while condition.__class__ is Cons:
+        part, condition = condition.car, condition.cdr
+        if part.__class__ is int or (isinstance(part, Symbol) and not is_variable(part)):
+            found.append(part)
+    return tuple(found)
+
+
 def agenda_of(session: Any) -> Agenda:
     """The agenda of SESSION, made when first wanted."""
     if session.agenda is None:
         from eslang.facts.unify import is_same_pattern
         from eslang.runtime.agenda import Agenda
 
-        session.agenda = Agenda(session, is_same_pattern)
+        session.agenda = Agenda(session, is_same_pattern, sketch_of)
     agenda: Agenda = session.agenda
     return agenda
 
