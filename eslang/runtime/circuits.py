@@ -11,11 +11,12 @@ asks is handed in: this file knows no condition.
 from __future__ import annotations
 
 from eslang.base.control import Deactivated
-from eslang.base.hints import TYPE_CHECKING, Any, Callable
+from eslang.base.hints import TYPE_CHECKING, Any, Callable, Sequence
 from eslang.base.lists import from_items, lisp_list
 from eslang.base.running import running
 from eslang.base.symbols import Keyword, Value
 from eslang.runtime import failures
+from eslang.runtime.arenas import Arena, take_turns
 from eslang.runtime.attempts import outcome
 from eslang.runtime.events import Wait
 from eslang.runtime.tasks import Extent, Interrupt, Task
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 NEAREST = 50  # constructs of an active path that are told one by one
 OUTER = Keyword("OUTER")
+NEVER = -1
 LEFT_BY = "deactivated"  # the kind of a wait for what leaves all that the task is in
 
 
@@ -33,16 +35,18 @@ class Level:
     """One entrance of a construct that is active while something holds."""
 
     __slots__ = (
+        "arena",
         "call",
         "closed",
         "extent",
         "holds",
-        "is_branch",
         "is_stale",
         "live",
         "logical",
         "outer",
+        "polled",
         "polls",
+        "settled",
         "task",
         "turns",
     )
@@ -55,18 +59,27 @@ class Level:
         self.holds = holds
         self.polls = False  # it is asked after every action
         self.is_stale = False  # what it rests on has changed
-        self.is_branch: bool = outer is not None and outer.is_branch  # others take turns with it
-        self.turns: Callable[[Any], bool] = take_turns if outer is None else outer.turns  # in that way
+        self.settled = NEVER  # the number of changes at which it and all around it were looked at
+        self.polled: Sequence[Level] = ()  # those of them that were polled then
+        self.arena: Arena | None = None if outer is None else outer.arena  # where it acts beside others
+        self.turns: Callable[[Any], bool] = take_turns if outer is None else outer.turns  # and how
         self.live = True
         self.closed = False  # it is being left: nothing inside begins another action
         self.extent = Extent(task.dynamic)
         self.call: Interrupt | None = None  # what lets its task ask, should it wait
+
+    def open(self, turns: Callable[[Any], bool] | None = None) -> None:
+        """What begins in it are branches, which take turns; those of an action only among themselves."""
+        self.turns = turns or self.turns
+        if self.arena is None or self.task.dynamic.masked:
+            self.arena = Arena()
 
     def stir(self, change: object = None) -> None:
         """What it rests on has changed: it is to be asked, at once if its task waits."""
         if self.is_stale or not self.live:
             return
         self.is_stale = True
+        running.session.scheduler.stirs += 1
         self.call = Interrupt("circuit", ask_stale, self.extent, at_waits=True)
         scheduler, task = running.session.scheduler, self.task
         if scheduler.current is task:  # it may wait before the action has ended
@@ -122,6 +135,13 @@ class Level:
     def close(self) -> None:
         """It is to be left: no action begins inside."""
         self.closed = self.is_stale = True
+        running.session.scheduler.stirs += 1
+
+    def poll(self, polls: bool) -> None:
+        """Whether it is to be asked after every action, from now on."""
+        if polls and not self.polls:
+            running.session.scheduler.stirs += 1
+        self.polls = polls
 
     def end(self) -> None:
         """It is left."""
@@ -162,17 +182,20 @@ def stage_here() -> Stage:
     return stage
 
 
-def begin_action(action: Value) -> None:
-    """ACTION is about to begin: nothing may have changed since the levels were asked."""
+def begin_action(action: Value) -> Arena | None:
+    """ACTION is about to begin: nothing may have changed since the levels were asked. Where it is done."""
     session = running.session
     dynamic = session.dynamic
     if dynamic.masked:
-        return
-    ask_all(dynamic.logical.circuit, polled=False)
+        return None
+    level: Level | None = dynamic.logical.circuit
+    arena = None if level is None else level.arena
+    ask_all(level, polled=arena is not None and arena.admit(session))
     if session.hooks.listeners:
         stage: Stage | None = dynamic.logical.stage
         path = [] if stage is None else stage.path()
         session.scheduler.lives.tell("action", action=action, path=path)
+    return arena
 
 
 def tell_deactivated(why: str, condition: Value = None) -> None:
@@ -190,8 +213,10 @@ def end_of_action() -> None:
     level: Level | None = dynamic.logical.circuit
     if level is None or dynamic.masked:
         return
+    if level.arena is not None:
+        level.arena.last = session.scheduler.at_work()
     ask_all(level, polled=True)
-    if level.is_branch and level.turns(session):
+    if level.arena is not None and level.turns(session):
         ask_all(level, polled=True)  # others have acted
 
 
@@ -209,17 +234,35 @@ def ask_stale() -> None:
 
 def ask_all(level: Level | None, *, polled: bool) -> None:
     """Ask LEVEL and those around it, outermost first, if they can have changed."""
-    found = []
-    while level is not None:
-        if level.is_stale or (polled and level.polls):
-            found.append(level)
-        level = level.outer
-    if found:
-        session = running.session
-        task, held = session.scheduler.at_work(), session.dynamic.held
-        for each in reversed(found):
+    if level is None:
+        return
+    scheduler = running.session.scheduler
+    if level.settled == scheduler.stirs:
+        asked = level.polled if polled else ()
+    else:
+        asked = look_at_all(level, scheduler.stirs, polled)
+    if asked:
+        task, held = scheduler.at_work(), running.session.dynamic.held
+        for each in asked:
             if each.extent.level >= held if each.task is task else not held:  # a cleanup is not cut short
                 each.ask()
+            elif each.is_stale:
+                level.settled = NEVER
+
+
+def look_at_all(level: Level, stirs: int, polled: bool) -> list[Level]:
+    """LEVEL and those around it that are to be asked, outermost first."""
+    found, polls = [], []
+    each: Level | None = level
+    while each is not None:
+        if each.polls:
+            polls.append(each)
+        if each.is_stale or (polled and each.polls):
+            found.append(each)
+        each = each.outer
+    level.settled, level.polled = stirs, tuple(reversed(polls))
+    found.reverse()
+    return found
 
 
 def is_polled(level: Level | None) -> bool:
@@ -227,25 +270,3 @@ def is_polled(level: Level | None) -> bool:
     while level is not None and not level.polls:
         level = level.outer
     return level is not None
-
-
-def take_turns(session: Any) -> bool:
-    """Let any of the branches that are ready go on, as chance has it, the current one among them.
-
-    Other tasks keep their places in the queue. True if others went on.
-    """
-    scheduler = session.scheduler
-    task, ready = scheduler.at_work(), scheduler.ready
-    places = [index for index, other in enumerate(ready) if other.dynamic.logical.circuit is not None]
-    if not places:
-        return False
-    places.append(len(ready))
-    ready.append(task)
-    task.queued = True
-    chosen, first = places[session.chance.randrange(len(places))], places[0]
-    ready[first], ready[chosen] = ready[chosen], ready[first]
-    steps = scheduler.steps
-    scheduler.pause(task)
-    if task.interrupts or task.ending is not None:
-        scheduler.attend(task)
-    return bool(scheduler.steps != steps + 1)

@@ -61,6 +61,7 @@ class Scheduler:
         self.between: Callable[[], None] | None = None  # what else the driver sees to, between two rounds
         self.settle: Callable[[], Failure | None] | None = None  # keeps what a step has changed, at its end
         self.rouse: Callable[[], None] | None = None  # what tells whoever rests that something was posted
+        self.stirs = 0  # how often something came about that a circuit is to look at
         self.lives = Lives(self)
         self.ticks = Ticks(self.safepoint)
         self.calm = session.dynamic  # what is on no task's stack

@@ -54,8 +54,16 @@ def _atomic_values(action: Value, body: Any) -> Value:
 @function("(%call-atomic action body)", SCS, many=_atomic_values)
 def run_atomic(action: Value, body: Any) -> Value:
     """Call BODY as one ACTION."""
-    begin_action(action)
-    values = run_masked(running.session.scheduler, body)
+    session = running.session
+    arena = begin_action(action)
+    if arena is None:
+        values = run_masked(session.scheduler, body)
+    else:
+        arena.acting = session.scheduler.at_work()
+        try:
+            values = run_masked(session.scheduler, body)
+        finally:
+            arena.leave(session)
     end_of_action()
     return values
 

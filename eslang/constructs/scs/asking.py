@@ -118,7 +118,7 @@ class Asker:
 
         def still() -> bool:
             answer = holds()
-            level.polls = any(each.polls for each in on)
+            level.poll(any(each.polls for each in on))
             return answer
 
         level = self.level = Level(self.task, outer, still)

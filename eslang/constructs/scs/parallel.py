@@ -80,7 +80,7 @@ def run_all(steps: list[Step], starred: bool) -> Value:
     dynamic = parent.dynamic
     outer = dynamic.logical
     level = Level(parent, outer, lambda: True)
-    level.is_branch = True  # the members begin in it
+    level.open()
     for number, step in enumerate(steps, 1):
         name = str(step.operator or "step").lower()
         net.members.append(scheduler.lives.create(name, branch(number, step, starred, level), parent))
@@ -91,6 +91,8 @@ def run_all(steps: list[Step], starred: bool) -> Value:
     finally:
         level.end()
         dynamic.logical = outer
+        if level.closed and level.arena is not None:
+            level.arena.settle(session)
     if net.deciding is not None:
         ask_around()
         return failures.signal(passed_on(net.deciding), continuable=True)
@@ -100,10 +102,15 @@ def run_all(steps: list[Step], starred: bool) -> Value:
 def branch(number: int, step: Step, starred: bool, level: Level) -> Callable[[], Value]:
     """What the task of one of the steps does. As soon as it fails, LEVEL is to be left."""
 
+    def fails() -> None:
+        if not level.closed and level.arena is not None:
+            level.close()
+            level.arena.fail()
+
     def body() -> Value:
         dynamic = running.session.dynamic
         whole = stage_here()
         dynamic.logical = dynamic.logical.entered(Stage(whole.operator, whole.around, number))
-        return persist(step.run) if starred else noticed(step.run, level.close)
+        return persist(step.run) if starred else noticed(step.run, fails)
 
     return body
