@@ -7,6 +7,7 @@ from eslang.base.hints import TYPE_CHECKING
 from eslang.base.image import PACKAGE, Image
 from eslang.base.symbols import Symbol
 from eslang.compile.registry import DEFINITIONS, Definition
+from eslang.constructs.scs.learning import DISCOUNT
 from eslang.devices import gym, robot, spacecraft, widget
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ def furnish(session: Interpreter) -> None:
     for definition in DEFINITIONS:
         if definition.kind != "special form":
             furnish_definition(image, definition)
+    export(image, DISCOUNT)
     session.texts.load_library(prelude.stdlib_files(), frozenset(prelude.stdlib_files(prelude.LATER)))
     image.cell(PACKAGE).value = image.packages["ESL-USER"]
     widget.install(session)

@@ -122,8 +122,9 @@ def do_best(form: Cons, environment: Any) -> Value:
     Of those whose condition holds, the one whose UTILITY is highest then; of
     several, any. When its condition does not hold any more, the choice is
     made anew; when it fails, another is tried. While none holds, it idles.
-    With :learn t among the modifiers, or :learn RATE, each utility is
-    multiplied by what was learned of its steps (see REINFORCE).
+    A clause stands for the first solution of its condition. With :learn t among
+    the modifiers, or :learn RATE, each utility is multiplied by what was
+    learned of its steps (see REINFORCE).
 
     Returns: the values of the steps that succeed; :deactivated, if a modifier
              ends it, or nothing but deactivated steps are left.

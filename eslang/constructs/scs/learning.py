@@ -52,7 +52,9 @@ def reinforce(reward: Value) -> Value:
     """Tell what the last choice of DO-BEST with :LEARN was worth, from 0 to 1.
 
     It is the choice whose steps are under way, or that ended last here. The
-    discount factor d of its action becomes d + rate * (REWARD - d).
+    discount factor d of its action becomes d + rate * (REWARD - d). It is a
+    fact, (discount ACTION FACTOR); ACTION is the step of the clause, or the list
+    of its steps, as they are written.
 
     Returns: the new factor.
     Fails:   :type-error if REWARD is no number from 0 to 1;

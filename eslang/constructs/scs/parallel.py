@@ -28,7 +28,9 @@ def do_all(form: Cons, environment: Any) -> Value:
 
     After every action, chance says whose turn it is. It ends when all have
     ended; a step that is deactivated has ended. As soon as one fails, the
-    others are aborted. Modifiers may stand before STEPS, as in DO.
+    others are aborted. While an action waits, no other begins; a step that is
+    no action and waits lets the others act. Modifiers may stand before STEPS,
+    as in DO.
 
     Returns: T; :deactivated, if a modifier ends it.
     Fails:   as the first of STEPS that fails.

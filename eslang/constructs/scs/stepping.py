@@ -74,10 +74,13 @@ def parts_of(
         if options is not None and keyword.name in options:
             refuse(environment, "malformed-step", f"`{shown(keyword)}` has no value", rest, within=within)
         if keyword.name not in MODIFIERS:
+            if rest.cdr is None:
+                break  # a step that gives a keyword
             wrong = f"`{shown(keyword)}` is no modifier of a step"
             hint = "write `:while`, `:until`, `:when` or `:unless`, and a condition"
+            hint += f"; or `'{shown(keyword)}` for a value"
             refuse(environment, "malformed-step", wrong, rest, hint=hint, within=within)
-        if rest.cdr is None:
+        if rest.cdr is None or is_modifier(rest.cdr.car):
             refuse(environment, "malformed-step", f"`{shown(keyword)}` has no condition", rest, within=within)
         condition = rest.cdr.car
         test = asking_form(condition, environment)
@@ -119,11 +122,16 @@ def expand(function_name: Symbol, form: Cons, environment: Any, *more: Value) ->
     return call_of(function_name, form, modifiers, steps_form(steps, environment, within), *more)
 
 
+def is_modifier(form: Value) -> bool:
+    """Whether FORM says that a condition follows."""
+    return isinstance(form, Keyword) and form.name in MODIFIERS
+
+
 def refuse_modifiers(forms: Value, environment: Any, within: str) -> None:
     """Refuse modifiers among FORMS, where steps are to be."""
     while forms.__class__ is Cons:
         form = forms.car
-        if isinstance(form, Keyword) and form.name in MODIFIERS:
+        if is_modifier(form):
             wrong = f"`{shown(form)}` stands where a step is to be"
             hint = "modifiers stand before the first step of a construct: `(scs:do :while condition step...)`"
             refuse(environment, "malformed-step", wrong, forms, hint=hint, within=within)
