@@ -249,7 +249,7 @@ def test_do_is_common_lisps_for_plans_and_that_of_scs_in_its_own_package() -> No
     "form",
     [
         "(scs:do :while)",
-        "(scs:do :done)",
+        "(scs:do :done 1)",
         "(do-all :whenever t 1)",
         "(scs:do 1 :while nil 2)",
         "(atomic :while nil 1)",
@@ -277,6 +277,11 @@ def test_a_construct_that_is_not_of_its_shape_is_refused(form: str) -> None:
 )
 def test_what_is_wrong_with_any_definition_is_wrong_here(form: str) -> None:
     assert isinstance(run(form).error, EslError)
+
+
+@pytest.mark.parametrize("form", ["(scs:do :done)", "(scs:do :when t :done)", "(do-any ':done ':done)"])
+def test_a_keyword_that_no_condition_can_follow_is_a_value(form: str) -> None:
+    assert said(f"(print {form})") == ":DONE"
 
 
 def test_what_a_name_was_is_forgotten_when_it_is_defined_anew() -> None:
