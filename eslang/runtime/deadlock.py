@@ -16,6 +16,7 @@ from eslang.base.lists import lisp_list
 from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, Value
 from eslang.base.text import String
+from eslang.runtime.agenda import Goal
 from eslang.runtime.events import Event, Wait
 from eslang.runtime.lives import LEAVING
 from eslang.runtime.story import Place, nearest_place
@@ -131,6 +132,8 @@ def name_of(event: Event) -> str:
     """EVENT in words."""
     if isinstance(event, Task):
         return f"a signal of {event.name}"
+    if isinstance(event, Goal):
+        return f"the end of the goal {event}"
     return f"event {event.name}".lower() if event.name is not None else "an event without a name"
 
 
@@ -184,6 +187,8 @@ def why_no_signal(events: Iterable[Event], alive: list[Task]) -> tuple[str, str]
     """Why none of EVENTS is signalled; and what would help."""
     if not events:
         return "nothing can end such a wait", "let the list hold an event"
+    if any(isinstance(event, Goal) for event in events):
+        return "no task that is left pursues goals", "let another task `(pursue-goals)`"
     names = [event.name for event in events if event.name is not None]
     could = [task.name for task in alive if any(promises(task, "signal", name) for name in names)]
     form = f"(signal {shown(names[0]) if names else 'event'})"

@@ -203,12 +203,14 @@ class Pursuit:
             self.held.pop(task, None)
         return True
 
-    def is_somebody_ready(self) -> bool:
-        """True if a task that is at work for a goal is about to go on."""
-        return any(goal_of(task, self.members) for task in self.scheduler.ready)
+    def is_somebody_ready(self, looks: bool = False) -> bool:
+        """True if a task that is at work for a goal is about to go on; or only LOOKS again at a condition."""
+        return any(is_looking(task) is looks and goal_of(task, self.members) for task in self.scheduler.ready)
 
     def let_go_on(self) -> None:
         """Let those go on that are held; only one of the best, if goals have utilities."""
+        if self.held and self.is_ranked and self.is_somebody_ready(looks=True):
+            self.scheduler.yield_turn(self.task)  # one of them may see what it waits for
         if not self.held or (self.is_ranked and self.is_somebody_ready()):
             return
         chosen = list(self.held)
@@ -307,3 +309,9 @@ class Pursuit:
         for wait, goal in self.resting.items():
             goal.status = ACTIVE
             self.scheduler.end_wait(wait, None)
+
+
+def is_looking(task: Task) -> bool:
+    """True if TASK, which is ready, is to look at the condition that it waits for, and may wait on."""
+    wait = task.wait
+    return wait is not None and wait.kind == CONDITION and not wait.done and not task.interrupts

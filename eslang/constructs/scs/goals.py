@@ -185,7 +185,9 @@ def _with_spec(holder: Cons, environment: Any, within: str, call: Callable[..., 
         wrong, hint = f"`{shown(goal)}` is no goal", f"write {SHAPES}"
         refuse(environment, "malformed-goal", wrong, holder, hint=hint, within=within)
     if goal.cdr.__class__ is not Cons or goal.cdr.cdr is not None:
-        wrong, hint = f"`{shown(goal)}` has not one condition", f"write {SHAPES}"
+        count = len(items(goal.cdr)) if goal.cdr.__class__ is Cons else 0
+        wrong = f"a goal has one condition, found {count or 'none'}"
+        hint = "join them by `and`" if count else f"write {SHAPES}"
         refuse(environment, "malformed-goal", wrong, holder, hint=hint, within=within)
     condition, bindings = computed_once(goal.cdr.car)
     data, instance, test = parts_of_condition(condition, environment)

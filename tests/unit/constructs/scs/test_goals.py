@@ -84,11 +84,11 @@ def test_a_goal_keeps_the_bindings_of_the_place_where_it_is_given() -> None:
     [
         ("(add-goal (lamp hall :on))", "`(lamp hall :on)` is no goal", "write `(achieve condition)` or"),
         ("(add-goal 5)", "`5` is no goal", "write `(achieve condition)` or `(maintain condition)`"),
-        ("(add-goal (achieve))", "`(achieve)` has not one condition", "write `(achieve condition)` or"),
-        ("(add-goal (maintain a b))", "`(maintain a b)` has not one condition", "write `(achieve"),
+        ("(add-goal (achieve))", "a goal has one condition, found none", "write `(achieve condition)` or"),
+        ("(add-goal (maintain a b))", "a goal has one condition, found 2", "join them by `and`"),
         ("(add-goal (achieve (a)) :utilty 3)", "add-goal has no option `:utilty`", "write `:utility form`"),
         ("(add-goal (achieve (a)) :by)", "`:by` has no value", "write `:utility form`"),
-        ("(drop-goal (achieve))", "`(achieve)` has not one condition", "write `(achieve condition)` or"),
+        ("(drop-goal (achieve))", "a goal has one condition, found none", "write `(achieve condition)` or"),
         ("(pursue-goals (go-home))", "pursue-goals has no steps", "give goals with `add-goal`"),
         ("(pursue-goals :whil t)", "`:whil` is no modifier of a step", "write `:while`"),
     ],
@@ -112,6 +112,16 @@ def test_what_is_no_goal_is_told_where_it_stands(form: str, message: str, hint: 
 )
 def test_what_turns_out_to_be_no_goal_is_a_type_error(form: str) -> None:
     assert str(run(LAMPS + form).failure.cause) == ":TYPE-ERROR"
+
+
+def test_to_wait_for_a_goal_that_nobody_pursues_is_a_deadlock() -> None:
+    failure = run("(wait-for-events (add-goal (achieve (lamp on))))").failure
+    told = failure.report.waiting[0]
+    assert told.what == "the end of the goal (achieve (lamp on))"
+    assert (told.why, told.advice) == (
+        "no task that is left pursues goals",
+        "let another task `(pursue-goals)`",
+    )
 
 
 # --- dropping ------------------------------------------------------------------------
