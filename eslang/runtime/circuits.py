@@ -237,20 +237,22 @@ def ask_all(level: Level | None, *, polled: bool) -> None:
     if level is None:
         return
     scheduler = running.session.scheduler
-    if level.settled == scheduler.stirs:
+    stirs = scheduler.stirs
+    if level.settled == stirs:
         asked = level.polled if polled else ()
     else:
-        asked = look_at_all(level, scheduler.stirs, polled)
+        asked = look_at_all(level, polled)
     if asked:
         task, held = scheduler.at_work(), running.session.dynamic.held
         for each in asked:
             if each.extent.level >= held if each.task is task else not held:  # a cleanup is not cut short
                 each.ask()
             elif each.is_stale:
-                level.settled = NEVER
+                stirs = NEVER
+    level.settled = stirs
 
 
-def look_at_all(level: Level, stirs: int, polled: bool) -> list[Level]:
+def look_at_all(level: Level, polled: bool) -> list[Level]:
     """LEVEL and those around it that are to be asked, outermost first."""
     found, polls = [], []
     each: Level | None = level
@@ -260,7 +262,7 @@ def look_at_all(level: Level, stirs: int, polled: bool) -> list[Level]:
         if each.is_stale or (polled and each.polls):
             found.append(each)
         each = each.outer
-    level.settled, level.polled = stirs, tuple(reversed(polls))
+    level.polled = tuple(reversed(polls))
     found.reverse()
     return found
 
