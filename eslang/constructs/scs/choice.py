@@ -14,10 +14,10 @@ from eslang.base.running import running
 from eslang.base.symbols import Keyword, Symbol, T, Value
 from eslang.compile.registry import SCS, function, macro
 from eslang.constructs.scs.asking import DEACTIVATED, run_under
-from eslang.constructs.scs.stepping import expand, read_steps
+from eslang.constructs.scs.stepping import Tries, expand, read_steps
 from eslang.runtime import failures
 from eslang.runtime.attempts import Unsuccessful, outcome
-from eslang.runtime.circuits import end_of_action, stage_here, tell_deactivated
+from eslang.runtime.circuits import stage_here, tell_deactivated
 
 ANY = Symbol.intern("%DO-ANY", SCS)
 ALL_FAILED = Keyword("ALL-SUBTASKS-FAILED")
@@ -29,10 +29,13 @@ def all_failed(found: list[Failure]) -> Value:
     return failures.signal(Failure(ALL_FAILED, from_items(causes)), continuable=True)
 
 
-class Tries:
+class Alternatives(Tries):
     """What became of the alternatives of one entrance of a choice."""
 
+    __slots__ = ("count", "failed", "left", "starred")
+
     def __init__(self, count: int, starred: bool) -> None:
+        super().__init__()
         self.count = count
         self.left = list(range(count))  # those that are available
         self.failed: dict[int, Failure] = {}
@@ -45,8 +48,7 @@ class Tries:
         elif value.__class__ is Unsuccessful:
             self.failed[number] = value.failure
             self.renew()
-            end_of_action()
-            next(running.session.ticks.source)
+            self.again()
         else:
             return True
         return False
@@ -105,7 +107,7 @@ def do_any_values(operator: Value, modifiers: Value, steps: Value, starred: Valu
     listed = read_steps(steps)
 
     def body() -> Value:
-        tries, stage = Tries(len(listed), starred is not None), stage_here()
+        tries, stage = Alternatives(len(listed), starred is not None), stage_here()
         task = running.session.scheduler.at_work()
         while tries.left:
             number = tries.left[running.session.chance.randrange(len(tries.left))]

@@ -12,7 +12,7 @@ from eslang.base.shown import shown
 from eslang.base.symbols import Symbol, T, Value
 from eslang.compile.registry import CL, SCS, function, macro
 from eslang.constructs.scs.asking import LEFT, Asked, Asker, Bindings, run_under
-from eslang.constructs.scs.choice import Tries
+from eslang.constructs.scs.choice import Alternatives
 from eslang.constructs.scs.learning import Learned, discount_of, rate_of
 from eslang.constructs.scs.stepping import (
     Step,
@@ -183,7 +183,7 @@ class Choice(Asker):
             Alternative(data.cdr.car, self.ask(data.car, test), utility, read_steps(steps))
             for data, test, utility, steps in map(items, items(clauses))
         ]
-        self.tries = Tries(len(self.alternatives), starred)
+        self.tries = Alternatives(len(self.alternatives), starred)
 
     def run_first(self) -> Value:
         """Do as DO-FIRST does."""

@@ -7,7 +7,7 @@ conditions around them are asked (runtime/circuits.py).
 
 from __future__ import annotations
 
-from eslang.base.hints import Any, Callable, Iterator, NamedTuple
+from eslang.base.hints import Any, Callable, NamedTuple
 from eslang.base.lists import Cons, from_items, items, lisp_list
 from eslang.base.many import many_of
 from eslang.base.running import running
@@ -27,6 +27,7 @@ CONSTRUCTS = frozenset(  # whose last action has asked all conditions when they 
     for each in ("DO", "DO-ALL", "DO-ANY", "DO-FIRST", "DO-BEST", "REPEAT")
     for name in (each, each.replace("DO", "DO*") if each != "REPEAT" else "REPEAT*")
 ) | {Symbol.intern("ATOMIC", SCS)}
+AT_ONCE = 10  # tries that may fail at one moment
 IS_ACTION = "ends_with_an_action"  # an attribute of such functions
 
 
@@ -158,17 +159,39 @@ def read_steps(steps: Value) -> list[Step]:
 # --- outcomes ------------------------------------------------------------------------
 
 
+class Tries:
+    """What is tried until something does not fail."""
+
+    __slots__ = ("at", "at_once")
+
+    def __init__(self) -> None:
+        self.at = -1.0  # when the last try has failed
+        self.at_once = 0  # how many have failed in a row at that moment
+
+    def again(self) -> None:
+        """A try has failed: ask the conditions, and let others have their turns.
+
+        On the virtual clock time passes, if tries take none: a world that is
+        in a bad way for three seconds has to come out of it.
+        """
+        end_of_action()
+        session = running.session
+        next(session.ticks.source)
+        now = session.clock.now()
+        self.at_once = self.at_once + 1 if now == self.at else 0
+        self.at = now
+        if self.at_once == AT_ONCE:
+            session.clock.use_slice()
+
+
 def persist(body: Callable[[], Value]) -> Value:
     """What BODY gives when it does not fail; until then it is tried again."""
-    rounds: Iterator[None] = running.session.ticks.source
-    task = running.session.scheduler.at_work()
+    tries, task = Tries(), running.session.scheduler.at_work()
     while True:
         value = outcome(task, body)
         if value.__class__ is not Unsuccessful:
             return value
-        end_of_action()
-        next(rounds)
-        rounds = running.session.ticks.source
+        tries.again()
 
 
 def in_order(steps: list[Step], starred: bool, stage: Stage | None = None) -> Value:
