@@ -135,8 +135,8 @@ class Asker:
             self.level = None
             back_to(outer)
 
-    def idle(self, of: Value, among: Iterable[Asked]) -> None:
-        """Wait until one of the conditions AMONG holds."""
+    def idle(self, of: Value, among: Iterable[Asked], kind: type[Wait] = Idling) -> None:
+        """Wait until one of the conditions AMONG holds; the wait is of a KIND with its own advice."""
         listed = list(among)
 
         def any_holds() -> Value:
@@ -147,7 +147,7 @@ class Asker:
             wait.reads = [name for each in listed for name in each.inquiry.relations]
             return found or None
 
-        wait = self.wait = Idling(self.task, CONDITION, of, (), any_holds)
+        wait = self.wait = kind(self.task, CONDITION, of, (), any_holds)
         scheduler = running.session.scheduler
         try:
             scheduler.wait(wait)

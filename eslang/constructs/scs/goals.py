@@ -34,6 +34,7 @@ from eslang.constructs.scs.asking import Asker
 from eslang.constructs.scs.stepping import read_steps, steps_form
 from eslang.constructs.shapes import refuse
 from eslang.facts.unify import is_variable
+from eslang.runtime.events import Wait
 
 if TYPE_CHECKING:
     from eslang.runtime.agenda import Agenda, Goal
@@ -288,11 +289,18 @@ def _under(bindings: dict[Symbol, Value], body: Callable[[], Value]) -> Value:
         dynamic.logical = outer
 
 
+class Keeping(Wait):
+    """A wait until there is something to be restored."""
+
+    __slots__ = ()
+    advice = "end what maintains it by a modifier around it, or abort its task"
+
+
 def await_need(condition: Value, test: Callable[[], Value]) -> None:
     """Wait until TEST says that CONDITION does not hold."""
     asker = Asker()
     try:
-        asker.idle(lisp_list(CONNECTIVES[2], condition), [asker.ask(condition, test, negated=True)])
+        asker.idle(lisp_list(CONNECTIVES[2], condition), [asker.ask(condition, test, negated=True)], Keeping)
     finally:
         asker.end()
 

@@ -133,6 +133,13 @@ def test_nobody_asks_a_condition_over_facts_unless_they_change() -> None:
     assert heard.count("resume") < 60
 
 
+def test_to_maintain_what_nobody_changes_is_a_deadlock() -> None:
+    failure = run(BATTERY + "(maintain (battery :full))").failure
+    told = failure.report.waiting[0]
+    assert told.what == "the condition (not (battery :full))"
+    assert told.advice == "end what maintains it by a modifier around it, or abort its task"
+
+
 def test_maintain_is_a_step_that_lasts_until_a_modifier_ends_it() -> None:
     text = """
     (task-net
