@@ -62,8 +62,16 @@ def refuse_shape(form: Cons, expander: Any, failure: Failure, analyser: Analyser
         analyser.fail(
             "malformed-form",
             f"`{shown(form.car)}` cannot be read: {message}",
-            hint=f"write `{usage(cell.definition)}`",
+            hint=f"write `{usage(cell.definition)}`" + namesake(form.car, analyser),
         )
+
+
+def namesake(operator: Symbol, analyser: Analyser) -> str:
+    """What to write for the operator of SCS that is called as OPERATOR of Common Lisp is."""
+    other = Symbol.intern(operator.name, SCS)
+    if operator.package != CL or analyser.image.cell(other).macro is None:
+        return ""
+    return f"; that of SCS is `scs:{shown(operator)}`"
 
 
 def refuse_endless(form: Cons, analyser: Analyser) -> NoReturn:
