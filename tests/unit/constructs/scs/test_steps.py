@@ -252,6 +252,7 @@ def test_do_is_common_lisps_for_plans_and_that_of_scs_in_its_own_package() -> No
         "(scs:do :done 1)",
         "(do-all :whenever t 1)",
         "(scs:do 1 :while nil 2)",
+        "(scs:do :while :until t 1)",
         "(atomic :while nil 1)",
         "(defaction a () :when t 1)",
         "(do-first (t :when nil 1))",
