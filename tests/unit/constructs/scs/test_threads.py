@@ -174,3 +174,57 @@ def test_what_an_interrupt_fails_with_is_no_failure_of_the_step() -> None:
       (sleep 1) (interrupt-task task (lambda () (fail :kicked))) (yield) (yield)
       (print (task-status task)))"""
     assert run(text).output.split() == [":FAILED"]
+
+
+# --- one action at a time ----------------------------------------------------------------------
+
+SLOW = "(defaction slow (x) (princ x) (sleep 1) (princ x))"
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        "(do-all (slow 1) (slow 2) (slow 3))",
+        "(do-all (do-all (slow 1) (slow 2)) (slow 3))",
+        "(do-all (scs:do (slow 1) (slow 2)) (progn (slow 3)))",
+        "(do-all (atomic (do-all (slow 1) (slow 2))) (slow 3))",
+    ],
+)
+def test_an_action_that_waits_keeps_its_turn(form: str) -> None:
+    for seed in range(4):
+        words = said(f"{SLOW} {form} (print (now))", seed)
+        assert words.endswith(" 3")
+        assert sorted(words[i : i + 2] for i in (0, 2, 4)) == ["11", "22", "33"]
+
+
+def test_a_step_that_is_no_action_lets_others_act_while_it_waits() -> None:
+    assert said("(do-all (scs:do (sleep 1) 1) (scs:do (sleep 1) 2)) (print (now))") == "1"
+
+
+def test_an_action_that_fails_or_is_jumped_out_of_gives_its_turn_on() -> None:
+    text = (
+        SLOW
+        + """(defaction try () (sleep 1) (fail :bad))
+    (do-all (do-any (try) 0) (block out (atomic (return-from out 1))) (slow 1))"""
+    )
+    assert {said(text, seed) for seed in range(4)} == {"11"}
+
+
+def test_a_branch_that_is_left_between_its_actions_cleans_up_when_it_is_its_turn() -> None:
+    text = (
+        SLOW
+        + """(assert '(going))
+    (do-all (scs:do :while (going) (with-cleanup-procedure (slow :c) (sleep 10)))
+            (scs:do (sleep 0.5) (retract '(going)) (slow :a)))"""
+    )
+    assert {said(text, seed) for seed in range(4)} <= {"AACC", "CCAA"}
+
+
+def test_an_action_that_waits_for_another_branch_is_a_deadlock() -> None:
+    text = "(do-all (atomic (wait-until (ready ?_))) (scs:do (sleep 1) (assert '(ready 1))))"
+    assert failure_text(run(text).failure).startswith(":DEADLOCK")
+
+
+def test_separate_constructs_do_not_share_a_turn() -> None:
+    text = SLOW + "(task-net (a (do-all (slow 1) (slow 1))) (b (do-all (slow 2) (slow 2)))) (print (now))"
+    assert said(text).endswith(" 2")
