@@ -136,7 +136,7 @@ def unchanged(open_gates: Plans, shut_gates: Plans, peers: Trees | None) -> Iter
                 plans.timed(name, count),
                 found,
                 ROUNDS,
-                most=7,
+                most=3,
             )
 
 
