@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from naive.circuit_runs import TICK, Effects, Run
-from naive.steps import Act, Clause, Condition, Group, Guarded, World, changed, is_true, solutions
+from naive.steps import Act, Await, Clause, Condition, Group, Guarded, World, changed, is_true, solutions
 
 
 class Place:
@@ -24,8 +24,8 @@ class Place:
 
 def places_of(term: Any, above: Any = (), guards: Any = ()) -> dict[str, Place]:
     """Where each action of TERM stands."""
-    if isinstance(term, Act):
-        return {term.name: Place(term, above, guards)}
+    if isinstance(term, Act | Await):
+        return {term.name: Place(Act(term.name) if isinstance(term, Await) else term, above, guards)}
     if isinstance(term, Group):
         found = {act.name: Place(act, above, guards) for act in term.acts}
         for place in found.values():
@@ -63,23 +63,25 @@ class Monitor:
 
     def wrong(self, note: str) -> list[str]:
         """What is wrong if NOTE comes now."""
-        word, _, guard = note.partition(" ")
+        word, _, name = note.partition(" ")
         found = [] if not self.owed or word.rstrip("ab") == self.owed[0] else [f"{self.owed} is cut off"]
         if word == TICK:
             self.world = changed(self.world, next(self.script))
-        elif guard:
-            found += ["this cannot be"] if (guard in self.entered) == (word == "in") else []
-            self.entered ^= {guard}
+        elif word in ("begin", "end"):
+            found += self.wrong_at(self.places[name], begins=word == "begin")
+        elif name:
+            found += ["this cannot be"] if (name in self.entered) == (word == "in") else []
+            self.entered ^= {name}
         else:
             place = self.places[word.rstrip("ab")]
             found += self.wrong_at(place)
             self.act(place)
         return found
 
-    def wrong_at(self, place: Place) -> list[str]:
-        """What is wrong if the action at PLACE begins now."""
+    def wrong_at(self, place: Place, begins: bool = True) -> list[str]:
+        """What is wrong if the action at PLACE is done now, or begins."""
         found = [f"{guard} is not under way" for guard in place.guards if guard not in self.entered]
-        if self.owed:
+        if self.owed or not begins:
             return found
         found += [] if place.act.name == place.group[0] else [f"it begins in the middle of {place.group}"]
         return found + [

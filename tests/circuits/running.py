@@ -72,7 +72,7 @@ class Stage:
         facts = [effect(("assert", *fact)) for fact in sorted(world.facts)]
         self.interp.eval(
             f"""(defun set-up ()
-                  (retract '(p)) (retract '(q)) (retract '(over)) (retract '(at ?place))
+                  (retract '(p)) (retract '(q)) (retract '(lit)) (retract '(over)) (retract '(at ?place))
                   (setq *x* {world.x} *left* {world.left}) {" ".join(facts)})
                 (defun run-plan () (spawn (progn {" ".join(script)}) :daemon t) (plan))"""
         )

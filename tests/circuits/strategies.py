@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from circuits.running import END, LIMIT, limited
 from naive.circuit_runs import Effects
-from naive.steps import Act, Clause, Clauses, Condition, Group, Guarded, Steps, World
+from naive.steps import Act, Await, Clause, Clauses, Condition, Group, Guarded, Steps, World
 
 FACTS = (("p",), ("q",), ("at", "a"), ("at", "b"))
 FACT = st.sampled_from([("fact", *fact) for fact in FACTS])
@@ -24,7 +24,9 @@ GROUND: st.SearchStrategy[Condition] = st.recursive(
 )
 BINDING = st.one_of(GROUND, GROUND, PLACE, st.tuples(st.just("and"), PLACE, GROUND))
 EFFECT: st.SearchStrategy[tuple[Any, ...]] = st.one_of(
-    st.sampled_from([(word, *fact) for word in ("assert", "retract") for fact in FACTS]),
+    st.sampled_from(
+        [*((word, *fact) for word in ("assert", "retract") for fact in FACTS), ("assert", "lit")]
+    ),
     st.integers(0, 2).map(lambda number: ("set", number)),
 )
 EFFECTS = st.lists(EFFECT, max_size=2).map(tuple)
@@ -48,22 +50,24 @@ CHANGES: st.SearchStrategy[tuple[Effects, ...]] = st.lists(EFFECTS, max_size=3).
 
 
 @st.composite
-def steps(draw: Any, depth: int) -> Any:
-    """A step, of at most DEPTH levels; not yet named."""
-    kinds = ["act", "act", "group"]
+def steps(draw: Any, depth: int, waits: bool) -> Any:
+    """A step, of at most DEPTH levels; not yet named. Steps that wait are among them if WAITS."""
+    kinds = ["act", "act", "group", *["await"] * waits]
     if depth > 0:
         kinds += ["guarded", "do", "do", "repeat", *ALLS, "any", "first", "first", "best"]
     kind = draw(st.sampled_from(kinds))
     if kind in ("act", "group"):
         return draw(ACT if kind == "act" else GROUP)
+    if kind == "await":
+        return Await("")
     if kind == "guarded":
-        return Guarded("", draw(steps(depth - 1)))
+        return Guarded("", draw(steps(depth - 1, waits)))
     starred, modifiers = draw(STARRED), draw(MODIFIERS)
     if kind in ("first", "best"):
-        inside = st.lists(steps(depth - 1), min_size=1, max_size=2).map(tuple)
+        inside = st.lists(steps(depth - 1, waits), min_size=1, max_size=2).map(tuple)
         clause = st.builds(Clause, BINDING, UTILITY, inside)
         return Clauses(kind, starred, modifiers, tuple(draw(st.lists(clause, min_size=1, max_size=3))))
-    listed = draw(st.lists(steps(depth - 1), min_size=1, max_size=3))
+    listed = draw(st.lists(steps(depth - 1, waits), min_size=1, max_size=3))
     if kind == "repeat":
         listed.insert(draw(st.integers(0, len(listed))), draw(ACT))  # it gets somewhere
     is_named = kind == "do" and not starred and draw(st.booleans())
@@ -73,8 +77,9 @@ def steps(draw: Any, depth: int) -> Any:
 class Namer:
     """Gives names to all that has none: actions, variables, steps."""
 
-    def __init__(self) -> None:
+    def __init__(self, asks_lisp: bool = True) -> None:
         self.count = 0
+        self.asks_lisp = asks_lisp
 
     def name(self, letter: str) -> str:
         """Another name."""
@@ -85,6 +90,8 @@ class Namer:
         """TERM with names, where SCOPE is the variable that is bound around it."""
         if isinstance(term, Act):
             return term._replace(name=self.name("a"), about=scope if term.about else "")
+        if isinstance(term, Await):
+            return Await(self.name("w"))
         if isinstance(term, Group):
             return Group(tuple(self.named(act, scope) for act in term.acts))
         if isinstance(term, Guarded):
@@ -102,6 +109,8 @@ class Namer:
 
     def condition(self, condition: Condition, scope: str) -> tuple[Condition, str]:
         """CONDITION, with a name for its variable, and the variable that is bound then."""
+        if not self.asks_lisp:
+            condition = without_lisp(condition)
         if "?" not in condition and ("fact", "at", "?") not in condition:
             return condition, scope
         variable = self.name("?v")
@@ -110,18 +119,28 @@ class Namer:
         return ("fact", "at", variable), variable
 
 
-def programs(depth: int) -> st.SearchStrategy[Any]:
-    """Programs of at most DEPTH levels, which end after some actions."""
-    return steps(depth).map(lambda term: limited(Namer().named(term)))
+def without_lisp(condition: Condition) -> Condition:
+    """CONDITION, which asks facts instead of Lisp."""
+    word, *parts = condition
+    if word == "x":
+        return ("fact", *FACTS[parts[0]])
+    return condition if word == "fact" else (word, *map(without_lisp, parts))
+
+
+def programs(depth: int, waits: bool = False) -> st.SearchStrategy[Any]:
+    """Programs of at most DEPTH levels, which end after some actions.
+
+    If WAITS, they have steps that wait, and no condition over Lisp: nobody asks such a one during a wait.
+    """
+    return steps(depth, waits).map(lambda term: limited(Namer(asks_lisp=not waits).named(term)))
 
 
 SMALL_WORLDS = WORLDS.map(lambda world: world._replace(left=5))
+DEED = ACT.map(lambda act: act._replace(about=""))  # which solution of a condition is taken, is no chance
+TWO = st.tuples(DEED, DEED)
 TINY = st.one_of(
-    ACT,
-    ACT,
-    GROUP,
-    st.tuples(ACT, ACT).map(lambda acts: Steps("do", False, (), acts)),
-    st.tuples(ACT, ACT).map(lambda acts: Steps("any", False, (), acts)),
+    *(DEED, DEED, TWO.map(Group)),
+    *(TWO.map(lambda acts, kind=kind: Steps(kind, False, (), acts)) for kind in ("do", "any")),
 )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from naive.steps import Act, Clause, Clauses, Condition, Group, Guarded, Steps
+from naive.steps import Act, Await, Clause, Clauses, Condition, Group, Guarded, Steps
 
 OPERATORS = {
     "do": ("scs:do", "scs:do*"),
@@ -15,7 +15,7 @@ OPERATORS = {
     "best": ("do-best", "do*-best"),
 }
 PREAMBLE = """
-(defrelation p) (defrelation q) (defrelation over) (defrelation at (place))
+(defrelation p) (defrelation q) (defrelation lit) (defrelation over) (defrelation at (place))
 (defvar *x* 0) (defvar *left* 0)
 (defun count-down () (when (<= (decf *left*) 0) (assert '(over))))
 """
@@ -38,6 +38,9 @@ class Writer:
             note = f'(note "out {term.name}")'
             form = f"(with-cleanup-procedure {note} {self.step(term.step)})"
             return f'(prog2 (note "in {term.name}") {form} {note})'
+        if isinstance(term, Await):
+            begin, end = f'(note "begin {term.name}")', f'(note "end {term.name}")'
+            return f'(progn {begin} (wait-until (lit)) {end} "{term.name}")'
         return self.construct(term)
 
     def act(self, act: Act) -> str:

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 from naive.steps import (
     Act,
+    Await,
     Done,
     Group,
     Guarded,
@@ -60,11 +61,27 @@ class Picking(NamedTuple):
     parts: tuple[State, ...] = ()
 
 
+class Waiting(NamedTuple):
+    """A step that waits."""
+
+    term: Await
+
+
 class Failing(NamedTuple):
     """A parallel that has left all its branches, since one failed with what it says."""
 
     term: Any
     what: Any
+
+
+class Cleaning(NamedTuple):
+    """What was left, and has yet to note some things before it is something else; others go on meanwhile."""
+
+    notes: Notes
+    then: State
+
+
+LEAVES = New | Done | Waiting | Failing | Cleaning
 
 
 # --- one move ------------------------------------------------------------------------
@@ -74,6 +91,13 @@ def go(state: State, world: World, path: Path) -> list[tuple[Notes, State, World
     """What STATE comes to when its branch PATH goes on: as far as an action, or as a step that ends."""
     if isinstance(state, New):
         return begun(state.term, world, path)
+    if isinstance(state, Failing):
+        return [((), Done("failed", state.what), world)]
+    if isinstance(state, Waiting):
+        ended = Done("ok", state.term.name)
+        return [((f"end {state.term.name}",), ended, world)] if ("lit",) in world.facts else []
+    if isinstance(state, Cleaning):
+        return [(state.notes[:1], cleaned(state.notes[1:], state.then), world)]
     if isinstance(state, Picking):
         return picked(state, world, path)
     kind = getattr(state.term, "kind", "guarded")
@@ -118,6 +142,8 @@ def begun(term: Any, world: World, path: Path) -> list[tuple[Notes, State, World
     """What becomes of TERM when it begins."""
     if isinstance(term, Act | Group):
         return [acted(term.acts if isinstance(term, Group) else (term,), world)]
+    if isinstance(term, Await):
+        return [((f"begin {term.name}",), Waiting(term), world)]
     if isinstance(term, Guarded):
         came = go(New(term.step), world, path)
         return [((f"in {term.name}", *notes), Running(term, (part,)), now) for notes, part, now in came]
@@ -194,7 +220,7 @@ def body_of(steps: tuple[Any, ...]) -> Any:
 
 def unwound(state: State) -> list[Came]:
     """STATE, when a failure that is in it has gone outward to what takes it."""
-    if isinstance(state, New | Done | Failing):
+    if isinstance(state, LEAVES):
         return [((), state)]
     found: list[Came] = [((), state)]
     for index, part in enumerate(state.parts):
@@ -218,15 +244,24 @@ def taken(state: State) -> list[Came]:
         known = {**dict(state.failed), state.number: failed.what}
         return [((), Picking(term, failed=tuple(sorted(known.items()))))]
     if not term.starred:
-        last = Failing(term, failed.what) if term.kind == "all" else failed
-        return [(notes, last) for notes in leavings(state)]
+        return left(state, Failing(term, failed.what)) if term.kind == "all" else [((), failed)]
     return [((), with_part(state, index, New(term.steps[index if term.kind == "all" else state.number])))]
+
+
+def left(state: State, then: State) -> list[Came]:
+    """STATE, when it is left, and is THEN when it has cleaned up."""
+    return [((), cleaned(notes, then)) for notes in leavings(state)]
+
+
+def cleaned(notes: Notes, then: State) -> State:
+    """What is THEN, when NOTES are made."""
+    return Cleaning(notes, then) if notes else then
 
 
 def leavings(state: State) -> list[Notes]:
     """What STATE may note when it is left: innermost first; branches in any order."""
-    if isinstance(state, New | Done | Failing):
-        return [()]
+    if isinstance(state, LEAVES):
+        return [state.notes if isinstance(state, Cleaning) else ()]
     found: list[Notes] = [()]
     for part in state.parts:
         found = [both for one in found for other in leavings(part) for both in mixed(one, other)]
@@ -246,14 +281,14 @@ def mixed(one: Notes, other: Notes) -> Iterator[Notes]:
 
 def asked(state: State, world: World, path: Path) -> list[Came]:
     """STATE, when the conditions around its branch PATH were asked, outermost first."""
-    if isinstance(state, New | Done):
+    if isinstance(state, New | Done | Waiting | Cleaning):
         return [((), state)]
     if not lasts(state.term, world):
-        return [(notes, Done("off")) for notes in leavings(state)]
+        return left(state, Done("off"))
     if isinstance(state, Failing):
         return [((), state)]
     if isinstance(state, Picking) and state.parts and is_to_be_left(state, world):
-        return [(notes, Picking(state.term, failed=state.failed)) for notes in leavings(state)]
+        return left(state, Picking(state.term, failed=state.failed))
     index = 0
     if getattr(state.term, "kind", "") == "all":
         if not path:
@@ -281,7 +316,7 @@ def is_to_be_left(state: Picking, world: World) -> bool:
 
 def paths(state: State) -> list[Path]:
     """The branches of STATE that can go on."""
-    if isinstance(state, New | Done) or not state.parts:
+    if isinstance(state, LEAVES) or not state.parts:
         return [()]
     if getattr(state.term, "kind", "") != "all":
         return paths(state.parts[0])
@@ -290,34 +325,25 @@ def paths(state: State) -> list[Path]:
 
 
 def moves(state: State, world: World) -> Iterator[tuple[Notes, State, World]]:
-    """All that may come next: what is noted, and what is then."""
+    """All that may come next: the notes, and what is then. No action begins while a failure is on its way."""
     if isinstance(state, Done):
         return
+    is_quiet = is_failing(state)
     for path in paths(state):
         for notes, now in asked(state, world, path):
             if now != state:
                 yield notes, now, world
                 continue
             for begun_notes, reached, after in go(state, world, path):
-                for more_notes, last in settled(reached, after, path):
-                    yield (*begun_notes, *more_notes), last, after
+                if is_quiet and (after != world or any(note.startswith("begin") for note in begun_notes)):
+                    continue
+                for failed_notes, whole in unwound(reached):
+                    for left_notes, last in asked(whole, after, path):
+                        yield (*begun_notes, *failed_notes, *left_notes), last, after
 
 
-def settled(state: State, world: World, path: Path) -> list[Came]:
-    """STATE, when what its branch PATH has come to has had its consequences: failures, then conditions."""
-    found: list[Came] = []
-    for notes, whole in unwound(state):
-        for more, now in asked(whole, world, path):
-            failed = given_up(now)
-            rest = settled(failed, world, path) if failed != now else [((), now)]
-            found += [((*notes, *more, *last), end) for last, end in rest]
-    return found
-
-
-def given_up(state: State) -> State:
-    """STATE, when a parallel in it that has left its branches has failed."""
-    if isinstance(state, Failing):
-        return Done("failed", state.what)
-    if isinstance(state, New | Done):
-        return state
-    return state._replace(parts=tuple(map(given_up, state.parts)))
+def is_failing(state: State) -> bool:
+    """Whether a parallel in STATE has failed, but not yet told."""
+    if isinstance(state, LEAVES):
+        return isinstance(state, Failing)
+    return any(map(is_failing, state.parts))

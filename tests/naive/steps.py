@@ -38,6 +38,12 @@ class Group(NamedTuple):
     acts: tuple[Act, ...]
 
 
+class Await(NamedTuple):
+    """A step that notes when it begins, waits until (lit) is a fact, and notes that it ends."""
+
+    name: str
+
+
 class Steps(NamedTuple):
     """DO, REPEAT, DO-ALL or DO-ANY, of steps."""
 
