@@ -43,9 +43,9 @@ class Arena:
             return False
         return self.acting is None or self.acting in task.ancestors()
 
-    def leave(self, session: Any) -> None:
-        """The action has ended."""
-        self.acting = None
+    def leave(self, session: Any, outer: Task | None) -> None:
+        """The action has ended; OUTER is at one around it."""
+        self.acting = outer
         self.wake(session)
 
     def fail(self) -> None:
@@ -69,11 +69,17 @@ class Arena:
 def take_turns(session: Any) -> bool:
     """Let any of the branches that are ready go on, as chance has it, the current one among them.
 
-    Other tasks keep their places in the queue. True if others went on.
+    Other tasks keep their places in the queue, and so do those that have to
+    wait for an action around this one. True if others went on.
     """
     scheduler = session.scheduler
     task, ready = scheduler.at_work(), scheduler.ready
-    places = [index for index, other in enumerate(ready) if other.dynamic.logical.circuit is not None]
+    arena = task.dynamic.logical.circuit.arena
+    places = [
+        index
+        for index, other in enumerate(ready)
+        if other.dynamic.logical.circuit is not None and arena.may_act(other)
+    ]
     if not places:
         return False
     places.append(len(ready))

@@ -41,6 +41,7 @@ class Level:
         "extent",
         "holds",
         "is_stale",
+        "leaving",
         "live",
         "logical",
         "outer",
@@ -65,6 +66,7 @@ class Level:
         self.turns: Callable[[Any], bool] = take_turns if outer is None else outer.turns  # and how
         self.live = True
         self.closed = False  # it is being left: nothing inside begins another action
+        self.leaving: Callable[[], None] | None = None  # what its task does to leave it, or to fail
         self.extent = Extent(task.dynamic)
         self.call: Interrupt | None = None  # what lets its task ask, should it wait
 
@@ -101,7 +103,9 @@ class Level:
         is_mine = self.task is task
         if self.closed:
             if not is_mine:
-                session.scheduler.wait(Wait(task, LEFT_BY, self.task))
+                self.await_leaving()
+            elif self.leaving is not None:
+                self.leaving()
             return
         logical, forms = dynamic.logical, dynamic.forms
         self.settle()
@@ -120,7 +124,6 @@ class Level:
     def leave_from_inside(self, holds: Value) -> None:
         """Let its task leave it, or fail in it if HOLDS is no answer; that ends the one that is at work."""
         session = running.session
-        task = session.scheduler.at_work()
 
         def leave() -> None:
             if holds is False:
@@ -128,14 +131,34 @@ class Level:
             session.dynamic.forms = self.extent.forms
             failures.signal(holds.failure, continuable=False)
 
+        self.leaving = leave
         self.close()
         session.scheduler.interrupt(self.task, Interrupt("circuit", leave, self.extent))
-        session.scheduler.wait(Wait(task, LEFT_BY, self.task))
+        self.await_leaving()
 
     def close(self) -> None:
-        """It is to be left: no action begins inside."""
+        """It is to be left: nothing inside goes on but cleanups, and this task."""
         self.closed = self.is_stale = True
-        running.session.scheduler.stirs += 1
+        scheduler = running.session.scheduler
+        scheduler.stirs += 1
+        pending = list(self.task.children or ())
+        while pending:
+            task = pending.pop()
+            pending += task.children or ()
+            if task is not scheduler.current and self.is_around(task):
+                scheduler.interrupt(task, Interrupt("circuit", self.await_leaving))
+
+    def is_around(self, task: Task) -> bool:
+        """True if TASK stands inside."""
+        level: Level | None = task.dynamic.logical.circuit
+        while level is not None and level is not self:
+            level = level.outer
+        return level is self
+
+    def await_leaving(self) -> None:
+        """Wait for its task, which is to leave it, and ends this one."""
+        scheduler = running.session.scheduler
+        scheduler.wait(Wait(scheduler.at_work(), LEFT_BY, self.task))
 
     def poll(self, polls: bool) -> None:
         """Whether it is to be asked after every action, from now on."""

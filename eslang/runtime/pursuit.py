@@ -171,7 +171,7 @@ class Pursuit:
         wait = Wait(self.task, "goals", "goals to pursue")
         if self.held:
             said = self.stage.operator
-            wait = Wait(self.task, CONDITION, said, (), lambda: None if self.is_somebody_ready() else T)
+            wait = Wait(self.task, CONDITION, said, (), lambda: None if self.is_somebody_on() else T)
         self.wait = wait
         failure = attempt(self.task, lambda: self.scheduler.wait(wait))
         self.wait = None
@@ -207,11 +207,17 @@ class Pursuit:
         """True if a task that is at work for a goal is about to go on; or only LOOKS again at a condition."""
         return any(is_looking(task) is looks and goal_of(task, self.members) for task in self.scheduler.ready)
 
+    def is_somebody_on(self) -> bool:
+        """True if a task at work for a goal is about to go on, or at an action, whose end gives turns."""
+        arena = self.level.arena
+        acting = None if arena is None else arena.acting
+        return (acting is not None and goal_of(acting, self.members) is not None) or self.is_somebody_ready()
+
     def let_go_on(self) -> None:
         """Let those go on that are held; only one of the best, if goals have utilities."""
         if self.held and self.is_ranked and self.is_somebody_ready(looks=True):
             self.scheduler.yield_turn(self.task)  # one of them may see what it waits for
-        if not self.held or (self.is_ranked and self.is_somebody_ready()):
+        if not self.held or (self.is_ranked and self.is_somebody_on()):
             return
         chosen = list(self.held)
         if self.is_ranked:

@@ -59,11 +59,11 @@ def run_atomic(action: Value, body: Any) -> Value:
     if arena is None:
         values = run_masked(session.scheduler, body)
     else:
-        arena.acting = session.scheduler.at_work()
+        outer, arena.acting = arena.acting, session.scheduler.at_work()
         try:
             values = run_masked(session.scheduler, body)
         finally:
-            arena.leave(session)
+            arena.leave(session, outer)
     end_of_action()
     return values
 

@@ -144,7 +144,7 @@ class Asker:
             ask_all(around, polled=True)
             found = [each for each in listed if each.holds()]
             wait.polls = is_polled(around) or any(each.polls for each in listed)
-            wait.reads = [name for each in listed for name in each.inquiry.relations]
+            wait.reads = dict.fromkeys(name for each in listed for name in each.inquiry.relations)
             return found or None
 
         wait = self.wait = kind(self.task, CONDITION, of, (), any_holds)
