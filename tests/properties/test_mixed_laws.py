@@ -72,7 +72,7 @@ SHAPES = st.sampled_from(
         *("(do-best ({c} 1 {a}) ({d} *x* {b}))", "(do*-first ({c} {a}) ({d} {b}))"),
         *("(repeat :while {c} (sleep 0.01) {a} {b})", "(with-cycle (50) :while {c} {a})"),
         *("(scs:do* :while {c} {a})", "(do*-all :until {c} {a} {b})", "(do*-any {a} {b})"),
-        *("(tracked {a})", "(task-net (a {a}) (b {b}))", "(task-net :allow-failures (a {a}) (b {b}))"),
+        *("(task-net (a {a}) (b {b}))", "(task-net :allow-failures (a {a}) (b {b}))"),
         *("(or-parallel {a} {b})", "(with-guardian {a} (fail :guarded) {b})"),
         *("(with-recovery-procedures ((:bad (retry))) {a})", "(with-recovery-procedures ((:bad {a})) {b})"),
         *("(with-deadline (0.02) {a})", "(with-maintained-properties ((power :on)) {a})"),
@@ -83,11 +83,11 @@ SHAPES = st.sampled_from(
 
 def within(shape: str, a: str, b: str, c: str, d: str) -> str:
     """A construct, with a deadline around it: it may idle, or go on for ever."""
-    return f"(with-deadline (0.1) {shape.format(a=a, b=b, c=c, d=d)})"
+    return f"(tracked (with-deadline (0.1) {shape.format(a=a, b=b, c=c, d=d)}))"
 
 
 PLANS = st.recursive(
-    LEAVES, lambda inner: st.builds(within, SHAPES, inner, inner, CONDITIONS, CONDITIONS), max_leaves=8
+    LEAVES, lambda inner: st.builds(within, SHAPES, inner, inner, CONDITIONS, CONDITIONS), max_leaves=12
 )
 
 
@@ -107,7 +107,7 @@ def fresh(seed: int, output: StringIO) -> Interpreter:
     derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.large_base_example],
 )
-@given(PLANS, st.integers(0, 2**16))
+@given(st.builds(within, SHAPES, PLANS, PLANS, CONDITIONS, CONDITIONS), st.integers(0, 2**16))
 def test_nothing_is_left_of_a_mixed_plan(plan: str, seed: int) -> None:
     with fresh(seed, StringIO()) as agent:
         agent.eval(WORLD)
