@@ -25,10 +25,13 @@ class Arena:
         self.last: Task | None = None  # who has acted last
         self.waits: dict[Wait, None] = {}
 
-    def admit(self, session: Any) -> bool:
-        """Let the current task wait until it may act. True if others have acted since it did."""
+    def admit(self, session: Any, cleans: bool) -> bool:
+        """Let the current task wait until it may act; who CLEANS may behind a failure, too.
+
+        True if others have acted since it did.
+        """
         task = session.scheduler.at_work()
-        while not self.may_act(task):
+        while (self.failing and not cleans) or self.is_taken(task):
             wait = Wait(task, TURN, "its turn")
             self.waits[wait] = None
             try:
@@ -37,11 +40,9 @@ class Arena:
                 del self.waits[wait]
         return self.last is not None and self.last is not task
 
-    def may_act(self, task: Task) -> bool:
-        """Whether TASK may act now: what cleans up may, and what belongs to the action itself."""
-        if self.failing and not task.dynamic.held:
-            return False
-        return self.acting is None or self.acting in task.ancestors()
+    def is_taken(self, task: Task) -> bool:
+        """Whether somebody is at an action, to which TASK does not belong."""
+        return self.acting is not None and self.acting not in task.ancestors()
 
     def leave(self, session: Any, outer: Task | None) -> None:
         """The action has ended; OUTER is at one around it."""
@@ -78,7 +79,7 @@ def take_turns(session: Any) -> bool:
     places = [
         index
         for index, other in enumerate(ready)
-        if other.dynamic.logical.circuit is not None and arena.may_act(other)
+        if other.dynamic.logical.circuit is not None and not arena.is_taken(other)
     ]
     if not places:
         return False

@@ -37,6 +37,7 @@ class Level:
     __slots__ = (
         "arena",
         "call",
+        "cleans",
         "closed",
         "extent",
         "holds",
@@ -64,6 +65,7 @@ class Level:
         self.polled: Sequence[Level] = ()  # those of them that were polled then
         self.arena: Arena | None = None if outer is None else outer.arena  # where it acts beside others
         self.turns: Callable[[Any], bool] = take_turns if outer is None else outer.turns  # and how
+        self.cleans: bool = outer is not None and outer.cleans  # it belongs to a cleanup
         self.live = True
         self.closed = False  # it is being left: nothing inside begins another action
         self.leaving: Callable[[], None] | None = None  # what its task does to leave it, or to fail
@@ -75,6 +77,14 @@ class Level:
         self.turns = turns or self.turns
         if self.arena is None or self.task.dynamic.masked:
             self.arena = Arena()
+
+    def shield(self, bare: Logical) -> Level | None:
+        """What stands around a cleanup in it: it holds always, and acts beside the same others."""
+        if self.arena is None:
+            return None
+        level = Level(running.session.scheduler.at_work(), bare, lambda: True)
+        level.arena, level.turns, level.cleans = self.arena, self.turns, True
+        return level
 
     def stir(self, change: object = None) -> None:
         """What it rests on has changed: it is to be asked, at once if its task waits."""
@@ -118,6 +128,7 @@ class Level:
             dynamic.logical, dynamic.forms = logical, forms
         if holds is not True:
             if is_mine:
+                self.close()
                 raise Deactivated(self)
             self.leave_from_inside(holds)
 
@@ -212,8 +223,10 @@ def begin_action(action: Value) -> Arena | None:
     if dynamic.masked:
         return None
     level: Level | None = dynamic.logical.circuit
-    arena = None if level is None else level.arena
-    ask_all(level, polled=arena is not None and arena.admit(session))
+    arena = None
+    if level is not None:
+        arena = level.arena
+        ask_all(level, polled=arena is not None and arena.admit(session, level.cleans))
     if session.hooks.listeners:
         stage: Stage | None = dynamic.logical.stage
         path = [] if stage is None else stage.path()
@@ -259,19 +272,13 @@ def ask_all(level: Level | None, *, polled: bool) -> None:
     """Ask LEVEL and those around it, outermost first, if they can have changed."""
     if level is None:
         return
-    scheduler = running.session.scheduler
-    stirs = scheduler.stirs
-    if level.settled == stirs:
-        asked = level.polled if polled else ()
+    stirs = running.session.scheduler.stirs
+    if level.settled != stirs:
+        asked: Sequence[Level] = look_at_all(level, polled)
     else:
-        asked = look_at_all(level, polled)
-    if asked:
-        task, held = scheduler.at_work(), running.session.dynamic.held
-        for each in asked:
-            if each.extent.level >= held if each.task is task else not held:  # a cleanup is not cut short
-                each.ask()
-            elif each.is_stale:
-                stirs = NEVER
+        asked = level.polled if polled else ()
+    for each in asked:
+        each.ask()
     level.settled = stirs
 
 

@@ -334,17 +334,17 @@ def is_last(jump: BaseException) -> bool:
 
 
 def clean(cleanup: Callable[[], Value]) -> Value:
-    """Run CLEANUP, which interrupts from outside it must wait for.
+    """Run CLEANUP, which interrupts from outside it must wait for, and which stands in no circuit.
 
     What ends a task goes on although a cleanup jumps out: nothing survives an abort.
     """
-    session = running.session
-    dynamic: Dynamic = session.dynamic
+    dynamic: Dynamic = running.session.dynamic
     ending = None if dynamic.held else exception()  # inside a cleanup, this one is not on its way
-    tells, left = bool(session.hooks.listeners), True
+    tells, left = bool(running.session.hooks.listeners), True
     if tells:
-        tell_cleanup(session)
-    dynamic.held += 1
+        tell_cleanup(running.session)
+    logical, dynamic.held = dynamic.logical, dynamic.held + 1
+    dynamic.logical = logical.shielded()
     try:
         value = guarded(cleanup)
         left = False
@@ -354,9 +354,9 @@ def clean(cleanup: Callable[[], Value]) -> Value:
             raise
         return None
     finally:
-        dynamic.held -= 1
+        dynamic.logical, dynamic.held = logical, dynamic.held - 1
         if tells:
-            tell_cleanup_end(session, left)
+            tell_cleanup_end(running.session, left)
 
 
 SUPPORT = {"%signal-error": signal_error, "%clean": clean}  # what compiled code calls
