@@ -37,11 +37,13 @@ class Logical(NamedTuple):
 
     def outside_circuits(self) -> Logical:
         """The same bindings, outside all constructs of SCS."""
-        return self if self.stage is self.circuit is None else Logical(*self[:3])
+        return Logical(*self[:3])
 
     def shielded(self) -> Logical:
         """The same for a cleanup: no condition around it is asked; but actions stay one at a time."""
-        bare = self.outside_circuits()
+        if self.stage is self.circuit is None:
+            return self
+        bare = self._replace(circuit=None, stage=None)
         return bare if self.circuit is None else bare._replace(circuit=self.circuit.shield(bare))
 
 

@@ -153,3 +153,8 @@ def test_what_was_learned_is_saved_and_loaded_with_the_facts(tmp_path: Path) -> 
         third.call("load-facts", str(path))
         assert [str(third.eval(f"(car {choice})")) for _ in range(2)] == [":FLAT", ":FLAT"]
         assert third.eval("(length (db-query '(scs::discount ?a ?f)))") == 2
+
+
+def test_a_cleanup_may_tell_what_the_choice_was_worth() -> None:
+    text = "(unwind-protect (setq *done* t) (reinforce 0))"
+    assert said(f"(defvar *done* nil) (print (do-best :learn 0.5 (t 5 {text}))) {LEARNED}").endswith("0.5))")
