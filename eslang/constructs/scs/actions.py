@@ -127,7 +127,8 @@ def note_action(name: Symbol) -> Symbol:
 def defstep(form: Cons, environment: Any) -> Value:
     """Define NAME as a step with ARGUMENTS: STEPS, in order.
 
-    They are done as in (scs:do . STEPS). It is expanded where it is called. Modifiers may stand before STEPS.
+    They are done as in (scs:do . STEPS). It is expanded where it is called.
+    Modifiers may stand before STEPS.
 
     Returns: NAME.
 

@@ -75,10 +75,11 @@ def is_list_of(clause: Value, least: int) -> bool:
 def do_first(form: Cons, environment: Any) -> Value:
     """Do the steps of the first of CLAUSES whose condition holds.
 
-    A clause is (CONDITION . STEPS). After every action the conditions are asked: if an earlier one holds now,
-    or that of the running clause does not any more, the steps are left where
-    they are, and the choice is made anew. While no condition holds, it idles.
-    Modifiers may stand before CLAUSES, as in DO.
+    A clause is (CONDITION . STEPS). After every action the conditions are
+    asked: if an earlier one holds now, or that of the running clause does not
+    any more, the steps are left where they are, and the choice is made anew.
+    While no condition holds, it idles. Modifiers may stand before CLAUSES, as
+    in DO.
 
     Returns: the values of the steps, when they succeed; :deactivated, if a
              modifier ends it, or nothing but deactivated steps are left.

@@ -9,6 +9,7 @@ from __future__ import annotations
 from eslang.base.failure import type_error
 from eslang.base.hints import TYPE_CHECKING, Any, Callable
 from eslang.base.lists import Cons, from_items, items, lisp_list
+from eslang.base.number_kinds import is_number
 from eslang.base.running import running, to_function
 from eslang.base.shown import shown
 from eslang.base.symbols import Keyword, Symbol, T, Value, truth
@@ -337,7 +338,7 @@ def as_goal(value: Value, operator: Symbol) -> Goal:
 
 def as_real(value: Value) -> Value:
     """VALUE, which is to be a real number."""
-    if value.__class__ in (int, float) or value.__class__.__name__ == "Ratio":
+    if is_number(value):
         return value
     raise type_error(value, "REAL")
 
